@@ -87,6 +87,7 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   options.decimationCost = costOf(this->DecimationCost);
   quadrille::checkOptions(options);
   const std::vector<quadrille::CurveRequest> curves = converted.input.curves;
+  const quadrille::DrawnRequests drawn = converted.input.drawn;
   quadrille::ResultStore* store = this->KeepLevels ? &held.levels : nullptr;
   if (store != nullptr && !hasRoom(converted.input, options, *store))
   {
@@ -108,10 +109,11 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   recipe.featureAngle = options.featureAngle;
   recipe.featureCriterion = options.featureCriterion;
   recipe.patchArray = this->PatchArrayName;
-  recipe.curveMarks = converted.curveMarks;
+  recipe.drawn = drawn;
   const auto made = std::make_shared<quadrille::SharedSurface>();
   made->key.input = store != nullptr ? entered.known.inputHash
                                      : quadrille::contentHash(framed.input, options.threads);
+  made->key.drawn = quadrille::drawnHash(framed.input.drawn);
   options.progress =
     this->MakeProgress(0.0, 1.8); // the levels end where half of a whole run is done
   quadrille::SizedSurface sized = quadrille::sizeSurface(framed.input, options, entered.known);

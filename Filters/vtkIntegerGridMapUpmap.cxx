@@ -20,6 +20,7 @@
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkIntArray.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -27,6 +28,7 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -94,6 +96,59 @@ quadrille::Level intermediateLevel(
   return level;
 }
 
+/// What the surface's own array of valences does not have: those that are drawn, which smoothing is to leave where they
+/// are. output: has the surface's vertices as points, with SurfacePointId where some are doubled.
+void addDrawnValences(const quadrille::PreparedSurface& surface,
+  const std::vector<quadrille::ValencePlace>& drawn, const quadrille::Frame& frame,
+  vtkPolyData* output)
+{
+  if (drawn.empty())
+  {
+    return;
+  }
+  vtkPointData* points = output->GetPointData();
+  vtkSmartPointer<vtkDataArray> valences = points->GetArray(quadrille::arrays::kTargetValence);
+  if (!valences)
+  {
+    valences = vtkSmartPointer<vtkIntArray>::New();
+    valences->SetName(quadrille::arrays::kTargetValence);
+    valences->SetNumberOfTuples(output->GetNumberOfPoints());
+    valences->Fill(0);
+    points->AddArray(valences);
+  }
+  std::map<quadrille::Index, int> asked;
+  for (const quadrille::ValencePlace& valence : drawn)
+  {
+    const quadrille::Vector3 place = frame.fromUser(valence.place);
+    const quadrille::ValenceRequest* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const quadrille::ValenceRequest& request : surface.valenceRequests)
+    {
+      const double distance = (surface.mesh.position[request.vertex] - place).squaredNorm();
+      if (request.valence == valence.valence && distance < least)
+      {
+        least = distance;
+        nearest = &request;
+      }
+    }
+    if (nearest != nullptr) // else it was left out
+    {
+      asked[nearest->vertex] = nearest->valence;
+    }
+  }
+  vtkDataArray* vertices = points->GetArray(quadrille::arrays::kSurfacePointId);
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const auto vertex =
+      static_cast<quadrille::Index>(vertices ? vertices->GetTuple1(i) : static_cast<double>(i));
+    const auto found = asked.find(vertex);
+    if (found != asked.end())
+    {
+      valences->SetTuple1(i, found->second);
+    }
+  }
+}
+
 /// Whether the extraction takes the map as it is, bit for bit.
 bool isExact(const quadrille::Certificate& certificate)
 {
@@ -132,8 +187,7 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   quadrille::SurfaceRecipe recipe = quadrille::readRecipe(logData);
   quadrille::ConvertedSurface converted =
     quadrille::convertSurface(source, recipe.patchArray, this->NumberOfThreads);
-  quadrille::addFeatureMarks(
-    converted.input, converted.input.polygonOffsets.size() - 1, recipe.curveMarks);
+  converted.input.drawn = recipe.drawn;
   quadrille::FramedInput framed =
     quadrille::enterFrame(std::move(converted.input), this->NumberOfThreads);
   const quadrille::Frame& frame = framed.frame;
@@ -208,6 +262,7 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   {
     this->AddNotice(notice);
   }
+  addDrawnValences(surface, recipe.drawn.valences, frame, output);
   if (const auto key = quadrille::mappedSurfaceHash(output, this->NumberOfThreads);
       key && isExact(certificate))
   {
@@ -234,7 +289,8 @@ void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
   const quadrille::SurfaceRecipe& recipe, quadrille::StageLaps& laps, quadrille::SharedLevels& held)
 {
   const quadrille::SurfaceKey key{ quadrille::contentHash(input, this->NumberOfThreads),
-    recipe.featureAngle, recipe.featureCriterion, recipe.edgeLength };
+    quadrille::drawnHash(input.drawn), recipe.featureAngle, recipe.featureCriterion,
+    recipe.edgeLength };
   if (auto found = quadrille::findSharedSurface(key))
   {
     held.surface = std::move(found);

@@ -92,7 +92,7 @@ public:
 
   ///@{
   /**
-   * Of a guiding stroke: polygons within this distance take its direction, in units of the surface. 0: those that it
+   * Of a guiding stroke: what lies within this distance takes its direction, in units of the surface. 0: only what it
    * runs over. Default: 0.
    */
   vtkSetMacro(Radius, double);

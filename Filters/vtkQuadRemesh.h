@@ -37,10 +37,11 @@
  *    - "degrees", guides: the angle between the asked direction at the centre of a face and the nearer of the two
  *      families of edges of the quad there, in the plane of the face; the mean by area, and in `Deviation95` the 95th
  *      percentile. Met: a mean of at most 5.
- *    - "edge lengths", curves: the largest distance from the quads' edges, over the mean length of the edges near it.
- *      Met: at most 0.1.
- *    - "valence", also of a move (kind "move") at its end: the number of edges there, on boundaries one more, less the
- *      one asked for. Met: 0.
+ *    - "edge lengths", curves: the largest distance of their course over the faces from the quads' edges. Met: at most
+ *      0.3. Of connections and cycles that of the straight chain of edges from the course; met where there is one.
+ *    - "edge lengths", valences, and moves (kind "move") at their ends: the distance to the nearest point of the quads
+ *      with that valence, on boundaries one more than its edges; of 4 it is 0 where the nearest point has it. Met: at
+ *      most 0.3, and where the vertex of a move was it is regular.
  *    - "relative to the diagonal", the symmetry (kind "symmetry" or "rotation", the last row, with a Symmetry): how far
  *      the mirror image of the surface, or the surface turned by one step, is from it, over the diagonal of its box, as
  *      the root of the mean square; in `Deviation95` the largest distance. Met: the quads have the topology of the

@@ -103,11 +103,6 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
     quadrille::writeOutputs(result.quads, result.surface.mesh, result.uv, source);
   std::vector<std::string>& notices = block.state->report.notices;
   notices.insert(notices.end(), written.notCarried.begin(), written.notCarried.end());
-  for (const std::string& warning : quadrille::missedValences(run.asked.placed, result.quads))
-  {
-    notices.push_back(warning);
-    vtkWarningMacro(<< warning);
-  }
   vtkPolyData* quads = block.output(0);
   quads->ShallowCopy(written.quads);
   quadrille::addFields(quads, quadrille::runFields(result));
@@ -127,6 +122,11 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
       quadrille::valuesOf(written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing)));
   const std::vector<std::string> off = quadrille::offSurfaceNotices(words);
   notices.insert(notices.end(), off.begin(), off.end());
+  for (const std::string& warning : quadrille::unmetNotices(words, run.asked))
+  {
+    notices.push_back(warning);
+    vtkWarningMacro(<< warning);
+  }
   quadrille::addText(quads, "Notices", notices);
   block.output(5)->ShallowCopy(quadrille::writeConstraints(
     run.asked.placed, run.asked.curves, result.quads, quadrille::metOfDrawn(words, run.asked)));

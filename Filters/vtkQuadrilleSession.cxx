@@ -146,19 +146,16 @@ void vtkQuadrilleSession::Internals::Write()
   addImages(result->rotatedPoint, quadrille::arrays::kRotatedPoint);
 
   std::vector<quadrille::Vector3> places;
-  auto point = quadrille::newArray<vtkIdTypeArray>("PointId");
   auto irregularValence = quadrille::newArray<vtkIntArray>(quadrille::arrays::kValence);
   vtkNew<vtkCellArray> vertices;
   for (const quadrille::IrregularVertex& vertex : result->irregular)
   {
     vertices->InsertNextCell({ static_cast<vtkIdType>(places.size()) });
     places.push_back(vertex.place);
-    point->InsertNextValue(vertex.point);
     irregularValence->InsertNextValue(vertex.valence);
   }
   this->Irregular->SetPoints(vtkPointsAt(places));
   this->Irregular->SetVerts(vertices);
-  this->Irregular->GetPointData()->AddArray(point);
   this->Irregular->GetPointData()->AddArray(irregularValence);
 }
 

@@ -88,8 +88,7 @@ public:
   ///@{
   /**
    * Of the present state: the quads, with Valence and OnBoundary on points, and with a symmetry MirrorPoint; the
-   * irregular vertices inside, off features, with PointId (of the surface, the vertex's id) and Valence. Empty before
-   * Update().
+   * irregular vertices inside, off features, with Valence. Empty before Update().
    */
   vtkPolyData* GetQuads();
   vtkPolyData* GetIrregularVertices();

@@ -9,6 +9,8 @@
 #include "Convert/ArrayNames.h"
 #include "Convert/PolyData.h"
 #include "Pipeline/Pipeline.h"
+#include "Pipeline/SizedSurface.h"
+#include "Prepare/ConstraintPlacement.h"
 #include "Runs/InPieces.h"
 
 #include "vtkCellData.h"
@@ -96,6 +98,13 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   constraints.strokeWeight = this->StrokeWeight;
   constraints.strokeRadius = this->StrokeRadius;
   constraints.valence = this->PointValence;
+  constraints.threads = this->NumberOfThreads;
+  if (constraints.points || constraints.mixed)
+  {
+    constraints.sameWithin = quadrille::kOnePlace *
+      quadrille::targetEdgeLength(this->MakeOptions(block),
+        quadrille::areaOfPolygons(surface.input), quadrille::diagonalOf(surface.input));
+  }
   if (asked)
   {
     asked->arrays = quadrille::arrayConstraints(

@@ -16,14 +16,14 @@
  * asked for is met as a whole.
  *
  * Three optional inputs hold what is drawn beside the surface, see Filters/Constraints/Constraints.h for how it is put
- * there:
- * - port 1, feature curves: polylines that become features, along the edges of the surface nearest to them. The line
- *   cell array `ConstraintType` may say 1: a guiding stroke instead; 2: a connection; 3: a cycle; 4: a move of an
- *   irregular vertex (see vtkQuadRemesh, which has inputs for them, too); other values than 0 to 4 are an error;
- * - port 2, guiding strokes: polylines whose direction the polygons below take with StrokeWeight, or with the line cell
+ * there; their points go to the nearest places on the surface, wherever that has its own:
+ * - port 1, feature curves: polylines that become features, straight over the faces of the surface. The line cell
+ *   array `ConstraintType` may say 1: a guiding stroke instead; 2: a connection; 3: a cycle; 4: a move of an irregular
+ *   vertex (see vtkQuadRemesh, which has inputs for them, too); other values than 0 to 4 are an error;
+ * - port 2, guiding strokes: polylines whose direction the surface below takes with StrokeWeight, or with the line cell
  *   array `GuidingWeight`, as far as StrokeRadius, or the line cell array `GuidingRadius`, says;
- * - port 3, valence points: points, with cells or without. The vertex of the surface nearest to each gets PointValence,
- *   or what the point array `TargetValence` says.
+ * - port 3, valence points: points, with cells or without. At the nearest place on the surface comes a vertex of
+ *   PointValence, or of what the point array `TargetValence` says.
  * Two points of the surface, or of port 3, with the same value of a point array `ConnectId` other than 0 are joined by
  * a connection.
  * Whole numbers may come as real numbers, as a Calculator makes them. Arrays on the wrong kind of element or with a
@@ -78,8 +78,8 @@ public:
 
   ///@{
   /**
-   * The distance from a guiding stroke, in units of the input, up to which polygons take its direction, that of its
-   * nearest piece, reached over the surface. 0: those that it runs over. Default: 0.
+   * The distance from a guiding stroke, in units of the input, up to which the surface takes its direction, that of its
+   * nearest piece, reached over the surface. 0: only what it runs over. Default: 0.
    */
   vtkSetClampMacro(StrokeRadius, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(StrokeRadius, double);

@@ -6,7 +6,7 @@
 #include "Native/Errors.h"
 #include "Native/ProgressCall.h"
 #include "Native/Results.h"
-#include "Requests/DrawnConstraints.h"
+#include "Prepare/ConstraintPlacement.h"
 #include "Session/SessionText.h"
 
 #include <algorithm>
@@ -57,7 +57,8 @@ bool hasOnlyTriangles(const SurfaceInput& input)
 bool asksForNothing(const SurfaceInput& input)
 {
   return input.featureEdges.empty() && input.patchIds.empty() && input.guideDirections.empty() &&
-    input.targetValences.empty() && input.sizing.empty() && input.curves.empty();
+    input.targetValences.empty() && input.sizing.empty() && input.curves.empty() &&
+    input.drawn.empty();
 }
 
 /// What the run is asked for beside the surface and the settings.
@@ -134,7 +135,8 @@ PlacedConstraints placeLines(
   }
   requirePolygons(input);
   const SurfacePlaces places(input);
-  ConstraintPlacement placement(input, places);
+  const SurfacePaths paths(input);
+  ConstraintPlacement placement(input, places, paths);
   for (std::size_t i = 0; i < lines.size(); ++i)
   {
     const auto source = static_cast<std::int64_t>(i);
@@ -152,10 +154,7 @@ PlacedConstraints placeLines(
           source, kind == 2 ? CurveKind::Connection : CurveKind::Cycle, std::move(points));
     }
   }
-  const std::size_t polygons = input.polygonOffsets.size() - 1;
-  addFeatureMarks(input, polygons, placement.featureMarks());
-  addGuideMarks(input, polygons, placement.guideMarks());
-  placement.addCurves(input);
+  placement.addTo(input);
   return placement.result();
 }
 

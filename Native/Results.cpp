@@ -327,14 +327,12 @@ py::dict resultDict(const Remeshed& remeshed)
     }
   }
   std::vector<std::string> notices = remeshed.notices;
-  for (const std::string& missed : missedValences(remeshed.asked.placed, result.quads))
-  {
-    notices.push_back(missed);
-  }
   const std::vector<ConstraintWord> words =
     judgeConstraints(remeshed.asked, result.quads, sizesAtPoints(remeshed));
   const std::vector<std::string> off = offSurfaceNotices(words);
   notices.insert(notices.end(), off.begin(), off.end());
+  const std::vector<std::string> unmet = unmetNotices(words, remeshed.asked);
+  notices.insert(notices.end(), unmet.begin(), unmet.end());
   fields["Notices"] = notices;
   dict["point_data"] = pointData;
   dict["cell_data"] = cellData;

@@ -103,19 +103,17 @@ public:
     }
     return quadArrays(made.quads) + py::make_tuple(pointData);
   }
-  /// Points of the surface, places, valences.
+  /// Places and valences.
   py::tuple irregular()
   {
-    std::vector<std::int64_t> points;
     std::vector<Vector3> places;
     std::vector<int> valences;
     for (const IrregularVertex& vertex : result()->irregular)
     {
-      points.push_back(vertex.point);
       places.push_back(vertex.place);
       valences.push_back(vertex.valence);
     }
-    return py::make_tuple(arrayFrom(points), arrayFrom(places), arrayFrom(valences));
+    return py::make_tuple(arrayFrom(places), arrayFrom(valences));
   }
 
 private:

@@ -21,7 +21,7 @@ struct ArrayConstraints
   {
     std::int64_t firstCell = 0;
     std::vector<Index> polygons; ///< ascending
-    std::vector<GuidedPolygon>
+    std::vector<GuidedPlace>
       measured; ///< some of them, evenly spread, where they are many; ascending
   };
   struct Curve

@@ -28,15 +28,14 @@ constexpr std::size_t kLeastGuidePlaces = 100;
 /// Places on each edge of a curve that is as long as an edge of the quads.
 constexpr double kPlacesAnEdge = 8;
 
-/// The mean of the four edges of a quad.
+/// That of a square of the same area.
 double edgeLengthOf(const QuadMesh& mesh, Index quad)
 {
-  double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    sum += (mesh.points[mesh.quads[quad][i]] - mesh.points[mesh.quads[quad][(i + 1) % 4]]).norm();
-  }
-  return sum / 4;
+  const std::array<Index, 4>& corners = mesh.quads[quad];
+  return std::sqrt(0.5 *
+    (mesh.points[corners[2]] - mesh.points[corners[0]])
+      .cross(mesh.points[corners[3]] - mesh.points[corners[1]])
+      .norm());
 }
 
 double angleBetweenLines(const Vector3& a, const Vector3& b)
@@ -122,18 +121,47 @@ bool ConstraintMeasures::isAtIrregularVertex(Index quad) const
     { return mesh_.valence[p] + (mesh_.onBoundary[p] != 0 ? 1 : 0) != kRegularValence; });
 }
 
-ConstraintMeasure ConstraintMeasures::guide(
-  const std::vector<GuidedPolygon>& measured, std::size_t mostPlaces, double* irregularShare)
+const NearestQuads& ConstraintMeasures::quads()
 {
-  ConstraintMeasure word =
-    ConstraintMeasure::unknown(measured.front().centre, "degrees", "no quads were made");
-  if (mesh_.quads.empty())
-  {
-    return word;
-  }
   if (!quads_)
   {
     quads_.emplace(mesh_);
+  }
+  return *quads_;
+}
+
+const ReachedValences& ConstraintMeasures::valences()
+{
+  if (!valences_)
+  {
+    valences_.emplace(mesh_);
+  }
+  return *valences_;
+}
+
+Vector3 ConstraintMeasures::centreOf(Index quad) const
+{
+  Vector3 centre = Vector3::Zero();
+  for (const Index p : mesh_.quads[quad])
+  {
+    centre += 0.25 * mesh_.points[p];
+  }
+  return centre;
+}
+
+double ConstraintMeasures::edgeLengthAt(const Vector3& p)
+{
+  const std::optional<NearestQuads::Place> there = quads().at(p);
+  return there ? there->edgeLength : 0;
+}
+
+ConstraintMeasure ConstraintMeasures::guide(
+  const std::vector<GuidedPlace>& measured, std::size_t mostPlaces, double* irregularShare)
+{
+  ConstraintMeasure word = ConstraintMeasure::unknown(measured.front().place, "degrees", kNoQuads);
+  if (mesh_.quads.empty())
+  {
+    return word;
   }
   std::vector<WeightedDeviation> angles;
   double irregular = 0, area = 0, worst = -1;
@@ -141,12 +169,12 @@ ConstraintMeasure ConstraintMeasures::guide(
   for (std::size_t i = 0; i < measured.size(); i += stride)
   {
     pollNowAndThen(i);
-    const GuidedPolygon& asked = measured[i];
+    const GuidedPlace& asked = measured[i];
     if (!(asked.area > 0) || asked.direction.isZero(0))
     {
       continue;
     }
-    const std::optional<NearestQuads::Place> there = quads_->at(asked.centre);
+    const std::optional<NearestQuads::Place> there = quads().at(asked.place);
     if (!there)
     {
       continue;
@@ -163,7 +191,7 @@ ConstraintMeasure ConstraintMeasures::guide(
     if (angle > worst)
     {
       worst = angle;
-      word.place = asked.centre;
+      word.place = asked.place;
     }
   }
   if (angles.empty())
@@ -184,10 +212,19 @@ ConstraintMeasure ConstraintMeasures::guide(
   return word;
 }
 
+ConstraintMeasure ConstraintMeasures::curve(const std::vector<Vector3>& path)
+{
+  std::vector<std::array<Vector3, 2>> edges;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k)
+  {
+    edges.push_back({ path[k], path[k + 1] });
+  }
+  return curve(edges);
+}
+
 ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3, 2>>& curve)
 {
-  ConstraintMeasure word =
-    ConstraintMeasure::unknown(curve.front()[0], "edge lengths", "no quads were made");
+  ConstraintMeasure word = ConstraintMeasure::unknown(curve.front()[0], "edge lengths", kNoQuads);
   if (mesh_.quads.empty())
   {
     return word;
@@ -205,8 +242,7 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
   const double step = std::max(
     (first ? first->length : 0) / kPlacesAnEdge, length / static_cast<double>(mostPlacesOf(1)));
   const std::size_t stride = strideOf(curve.size(), mostPlacesOf(1));
-  double farthest = -1, lengths = 0;
-  std::size_t places = 0;
+  double farthest = -1;
   for (std::size_t k = 0; k < curve.size(); k += stride)
   {
     pollNowAndThen(k);
@@ -216,21 +252,20 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
     {
       const Vector3 p = a + (b - a) * (parts > 0 ? static_cast<double>(i) / parts : 0);
       const std::optional<NearestEdges::Place> there = edges_->at(p);
-      lengths += there ? there->length : 0;
-      places += there ? 1 : 0;
-      if (there && there->distance > farthest)
+      const double distance = there && there->length > 0 ? there->distance / there->length : -1;
+      if (distance > farthest)
       {
-        farthest = there->distance;
+        farthest = distance;
         word.place = p;
       }
     }
   }
-  if (places == 0 || !(lengths > 0))
+  if (farthest < 0)
   {
     word.reason = "no edges of quads were found near it";
     return word;
   }
-  word.deviation = farthest / (lengths / static_cast<double>(places));
+  word.deviation = farthest;
   word.isMet = word.deviation <= kMetDistance;
   word.reason = word.isMet ? ""
                            : "the quads' edges are up to " + shortText(word.deviation) +
@@ -238,22 +273,218 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
   return word;
 }
 
+/// The point that is judged for a place: of those with the valence the nearest one.
+std::optional<Index> ConstraintMeasures::pointFor(const Vector3& place, int asked)
+{
+  return asked == kRegularValence ? valences().nearest(place) : valences().nearestOf(asked, place);
+}
+
 ConstraintMeasure ConstraintMeasures::valence(const Vector3& place, int asked)
 {
-  ConstraintMeasure word = ConstraintMeasure::unknown(place, "valence", "no quads were made");
-  if (mesh_.quads.empty())
+  ConstraintMeasure word = ConstraintMeasure::unknown(place, "edge lengths", kNoQuads);
+  const double length = mesh_.quads.empty() ? 0 : edgeLengthAt(place);
+  if (!(length > 0))
   {
     return word;
   }
-  if (!valences_)
+  const std::string there = std::to_string(valences().valence(*valences().nearest(place)));
+  const std::string wanted = "asked " + std::to_string(asked) + ", got " + there;
+  const std::optional<Index> point = pointFor(place, asked);
+  if (!point)
   {
-    valences_.emplace(mesh_);
+    word.reason = wanted + "; the quads have no point of valence " + std::to_string(asked);
+    return word;
   }
-  const int got = valences_->at(place);
-  word.deviation = got - asked;
-  word.isMet = got == asked;
-  word.reason = word.isMet ? "" : "asked " + std::to_string(asked) + ", got " + std::to_string(got);
+  const double distance = (mesh_.points[*point] - place).norm() / length;
+  if (asked == kRegularValence)
+  {
+    word.isMet = valences().valence(*point) == kRegularValence;
+    word.deviation = word.isMet ? 0 : distance;
+    word.reason = word.isMet ? "" : wanted;
+    return word;
+  }
+  word.deviation = distance;
+  word.isMet = distance <= kMetDistance;
+  word.reason = word.isMet ? ""
+                           : wanted + "; the nearest point of valence " + std::to_string(asked) +
+      " is " + shortText(distance) + " edge lengths away, at most " + shortText(kMetDistance) +
+      " count as met";
   return word;
+}
+
+int ConstraintMeasures::valenceShown(const Vector3& place, int asked)
+{
+  if (mesh_.quads.empty())
+  {
+    return 0;
+  }
+  return valence(place, asked).isMet ? asked : valences().valence(*valences().nearest(place));
+}
+
+ConstraintMeasure ConstraintMeasures::move(const Vector3& from, const Vector3& to, int valence)
+{
+  ConstraintMeasure there = this->valence(to, valence);
+  const ConstraintMeasure before = this->valence(from, kRegularValence);
+  if (there.isMet && !before.isMet)
+  {
+    there.isMet = false;
+    there.place = from;
+    there.reason = "it is at its new place, but where it was another irregular vertex is left";
+  }
+  return there;
+}
+
+ConstraintMeasure ConstraintMeasures::line(
+  const PlacedConstraint& constraint, const std::vector<CurveOutcome>& outcomes)
+{
+  ConstraintMeasure word =
+    ConstraintMeasure::unknown(constraint.path.front(), "edge lengths", kNoQuads);
+  if (mesh_.quads.empty())
+  {
+    if (constraint.curve < outcomes.size() && !outcomes[constraint.curve].why.empty())
+    {
+      word.reason = outcomes[constraint.curve].why;
+    }
+    return word;
+  }
+  if (constraint.curve >= outcomes.size())
+  {
+    word.reason = "the method has no connections and cycles: choose another one";
+    return word;
+  }
+  if (!lines_)
+  {
+    lines_.emplace(mesh_);
+  }
+  const CurveOutcome& outcome = outcomes[constraint.curve];
+  const std::vector<Vector3> chain = lines_->chainOf(constraint, outcome);
+  word.isMet = !chain.empty();
+  word.reason = word.isMet ? ""
+    : outcome.why.empty()  ? "the quads have no straight chain of edges there"
+                           : outcome.why;
+  if (!chain.empty())
+  {
+    const auto [distance, place] = farthestFrom(constraint.path, chain);
+    word.deviation = distance / lines_->edgeLength();
+    word.place = place;
+  }
+  return word;
+}
+
+ConstraintMeasure ConstraintMeasures::sizeOf(const std::vector<std::pair<Index, double>>& quads,
+  const Vector3& place, const AskedSize& asked) const
+{
+  ConstraintMeasure word =
+    ConstraintMeasure::unknown(place, "factor", "the quads near it have no area");
+  std::vector<WeightedDeviation> logarithms, signedLogarithms;
+  double worst = -1;
+  for (const auto& [quad, weight] : quads)
+  {
+    const double length = edgeLengthOf(mesh_, quad);
+    if (length > 0)
+    {
+      const double off = std::log(length / (asked.factor * asked.edgeLength));
+      logarithms.push_back({ std::abs(off), weight });
+      signedLogarithms.push_back({ off, weight });
+      if (std::abs(off) > worst)
+      {
+        worst = std::abs(off);
+        word.place = centreOf(quad);
+      }
+    }
+  }
+  if (logarithms.empty())
+  {
+    return word;
+  }
+  const double ratio = std::exp(meanOf(signedLogarithms));
+  word.deviation = std::exp(meanOf(logarithms));
+  word.deviation95 = std::exp(percentile95(std::move(logarithms)));
+  word.isMet = word.deviation <= kMetFactor;
+  word.reason = word.isMet ? ""
+                           : "the sizes of the quads differ from those asked for by a factor of " +
+      shortText(word.deviation) + " on average, at most " + shortText(kMetFactor) +
+      " counts as met; they are " + shortText(ratio) + " times as long as asked for" +
+      (ratio < 1 ? ", as larger sizes give way to smaller ones beside them"
+                 : ", as smaller ones need irregular vertices that find no room");
+  return word;
+}
+
+ConstraintMeasure ConstraintMeasures::size(
+  const Vector3& place, double radius, const AskedSize& asked, std::vector<Index>* measured)
+{
+  if (mesh_.quads.empty())
+  {
+    return ConstraintMeasure::unknown(place, "factor", kNoQuads);
+  }
+  std::vector<std::pair<Index, double>> quads;
+  const auto add = [&](Index q)
+  {
+    const double length = edgeLengthOf(mesh_, q);
+    quads.emplace_back(q, length * length);
+    if (measured != nullptr)
+    {
+      measured->push_back(q);
+    }
+  };
+  for (Index q = 0; radius > 0 && q < mesh_.quads.size(); ++q)
+  {
+    pollNowAndThen(q);
+    if ((centreOf(q) - place).norm() <= radius)
+    {
+      add(q);
+    }
+  }
+  const std::optional<Index> point =
+    quads.empty() ? valences().nearest(place) : std::optional<Index>();
+  for (Index q = 0; point && q < mesh_.quads.size(); ++q)
+  {
+    const std::array<Index, 4>& corners = mesh_.quads[q];
+    if (std::find(corners.begin(), corners.end(), *point) != corners.end())
+    {
+      add(q);
+    }
+  }
+  return sizeOf(quads, place, asked);
+}
+
+ConstraintMeasure ConstraintMeasures::size(
+  const std::vector<WeightedPlace>& places, const AskedSize& asked)
+{
+  if (mesh_.quads.empty())
+  {
+    return ConstraintMeasure::unknown(places.front().place, "factor", kNoQuads);
+  }
+  std::vector<std::pair<Index, double>> measured;
+  for (const WeightedPlace& place : places)
+  {
+    pollNowAndThen(measured.size());
+    const std::optional<NearestQuads::Place> there = quads().at(place.place);
+    if (there)
+    {
+      measured.emplace_back(there->quad, place.weight);
+    }
+  }
+  return sizeOf(measured, places.front().place, asked);
+}
+
+bool ConstraintMeasures::isUnder(const NearestSegments& stroke, double radius, const Vector3& place)
+{
+  // It counts in the faces below it, which are smaller than half a quad.
+  return stroke.at(place).distance <= std::max(radius, 0.5 * edgeLengthAt(place));
+}
+
+double ConstraintMeasures::shareUnder(
+  const std::vector<Vector3>& path, double radius, const std::vector<GuidedPlace>& places)
+{
+  const NearestSegments segments(path);
+  double under = 0, all = 0;
+  for (const GuidedPlace& place : places)
+  {
+    under += isUnder(segments, radius, place.place) ? place.area : 0;
+    all += place.area;
+  }
+  return all > 0 ? under / all : 0;
 }
 
 std::string ConstraintMeasures::offSurface(const std::vector<Vector3>& given)
@@ -262,17 +493,13 @@ std::string ConstraintMeasures::offSurface(const std::vector<Vector3>& given)
   {
     return {};
   }
-  if (!quads_)
-  {
-    quads_.emplace(mesh_);
-  }
   double farthest = kFarOffSurface;
   std::string text;
   for (std::size_t i = 0; i < given.size(); ++i)
   {
     pollNowAndThen(i);
-    const std::optional<NearestQuads::Place> there = quads_->at(given[i]);
-    const double length = there ? edgeLengthOf(mesh_, there->quad) : 0;
+    const std::optional<NearestQuads::Place> there = quads().at(given[i]);
+    const double length = there ? there->edgeLength : 0;
     const double distance = there ? (given[i] - there->point).norm() : 0;
     if (length > 0 && distance > farthest * length)
     {

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Whether the quads do what was asked for, by how much not, and why not.
+/// Whether the quads do what was asked for, by how much not, and why not. What "met" means is said here, for all that
+/// tells it: the table, the notices, the output Constraints, and sessions.
 #pragma once
 
+#include "Evaluation/LinesInQuads.h"
 #include "Evaluation/QuadPlaces.h"
 #include "Requests/DrawnConstraints.h"
 
@@ -10,17 +12,23 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quadrille
 {
 
-/// Degrees on average, edge lengths at most, and the factor on average, up to which a constraint counts as met.
+/// Guides and strokes: degrees on average.
 constexpr double kMetAngle = 5;
-constexpr double kMetDistance = 0.1;
+/// Places (valences, moves) and feature lines: edge lengths of the quads there, at most.
+constexpr double kMetDistance = 0.3;
+/// Sizes: the factor on average.
 constexpr double kMetFactor = 1.25;
-/// Edge lengths beyond which a drawn point lies off the surface.
-constexpr double kFarOffSurface = 1;
+/// Edge lengths of the quads beyond which a drawn point lies off the surface, which is told.
+constexpr double kFarOffSurface = 0.5;
+
+/// The reason where there are none.
+constexpr const char* kNoQuads = "no quads were made";
 
 /// What was found of one constraint. What could not be measured is not a number.
 struct ConstraintMeasure
@@ -58,34 +66,77 @@ std::size_t mostPlacesOf(std::size_t guides);
 /// From one of `count` elements to the next, so that at most `most` are taken; at least 1.
 std::size_t strideOf(std::size_t count, std::size_t most);
 
+/// A place, and how much it counts.
+struct WeightedPlace
+{
+  Vector3 place = Vector3::Zero();
+  double weight = 1;
+};
+
+/// What sizes are compared with.
+struct AskedSize
+{
+  double factor = 1;     ///< asked for
+  double edgeLength = 0; ///< of quads where the size is 1
+};
+
 class ConstraintMeasures
 {
 public:
   /// mesh: what was made, without quads where there are none; it stays as it is while this is used.
   explicit ConstraintMeasures(const QuadMesh& mesh) : mesh_(mesh) {}
 
-  /// "degrees": the angle between the asked direction at the centre of a polygon and the nearer of the two families of
-  /// edges of the quad there, in the plane of the polygon; mean by area. measured: not empty; at most mostPlaces of
-  /// them are looked at. irregularShare, where given, gets the share of the area in quads at irregular vertices.
-  ConstraintMeasure guide(const std::vector<GuidedPolygon>& measured, std::size_t mostPlaces,
+  /// "degrees": the angle between the asked direction at a place and the nearer of the two families of edges of the
+  /// quad there, in the plane of the surface; mean by area. measured: not empty; at most mostPlaces of them are looked
+  /// at. irregularShare, where given, gets the share of the area in quads at irregular vertices.
+  ConstraintMeasure guide(const std::vector<GuidedPlace>& measured, std::size_t mostPlaces,
     double* irregularShare = nullptr);
-  /// "edge lengths": the largest distance from the quads' edges, over the mean length of the edges near it. curve: not
-  /// empty.
+  /// "edge lengths": the largest distance from the quads' edges, over the length of these. curve: not empty.
   ConstraintMeasure curve(const std::vector<std::array<Vector3, 2>>& curve);
-  /// "valence": the number of edges there, on boundaries one more, less the one asked for.
+  ConstraintMeasure curve(const std::vector<Vector3>& path);
+  /// "edge lengths": from the place to the nearest point of the quads with the valence, on boundaries one more than the
+  /// edges there; of a regular one 0, if the nearest point is one.
   ConstraintMeasure valence(const Vector3& place, int asked);
-  /// Of the points that were drawn the one farthest from the quads, if that is more than an edge length of the quads
-  /// there: a sentence on where it lies, how far off, and which place counts in its stead. Empty: there is none, or
-  /// there are no quads.
+  /// The same of a vertex that was moved: at its new place, and that its old one is regular. valence: of the vertex.
+  ConstraintMeasure move(const Vector3& from, const Vector3& to, int valence);
+  /// "edge lengths": of a connection or cycle, met where there is a straight chain of edges: the largest distance of
+  /// that from the course. outcomes: see AskedConstraints.
+  ConstraintMeasure line(
+    const PlacedConstraint& constraint, const std::vector<CurveOutcome>& outcomes);
+  /// "factor": by which the edge lengths of quads, the roots of their areas, differ from what was asked: of those with
+  /// their centre within the radius, or else of those round the point next to the place. quads, where given, gets them.
+  ConstraintMeasure size(const Vector3& place, double radius, const AskedSize& asked,
+    std::vector<Index>* quads = nullptr);
+  /// The same of the quads at places.
+  ConstraintMeasure size(const std::vector<WeightedPlace>& places, const AskedSize& asked);
+  /// Of the points that were drawn the one farthest from the quads, if that is more than half an edge length of the
+  /// quads there: a sentence on where it lies, how far off, and which place counts in its stead. Empty: there is none,
+  /// or there are no quads.
   std::string offSurface(const std::vector<Vector3>& given);
+  /// Of the places the share by area that a stroke runs over, or has within its radius.
+  double shareUnder(
+    const std::vector<Vector3>& path, double radius, const std::vector<GuidedPlace>& places);
+  /// Whether a place is under a stroke, or within its radius.
+  bool isUnder(const NearestSegments& stroke, double radius, const Vector3& place);
+  /// Which valence is shown for a place where one is asked for.
+  int valenceShown(const Vector3& place, int asked);
+  Vector3 centreOf(Index quad) const;
+  /// Of the quad next to a place; 0 where there are no quads.
+  double edgeLengthAt(const Vector3& p);
 
 private:
   bool isAtIrregularVertex(Index quad) const;
+  const NearestQuads& quads();
+  const ReachedValences& valences();
+  std::optional<Index> pointFor(const Vector3& place, int asked);
+  ConstraintMeasure sizeOf(const std::vector<std::pair<Index, double>>& quads, const Vector3& place,
+    const AskedSize& asked) const;
 
   const QuadMesh& mesh_;
   std::optional<ReachedValences> valences_; ///< these are made when they are needed first
   std::optional<NearestQuads> quads_;
   std::optional<NearestEdges> edges_;
+  std::optional<LinesInQuads> lines_;
 };
 
 } // namespace quadrille

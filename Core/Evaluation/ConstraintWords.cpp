@@ -4,13 +4,10 @@
 
 #include "Base/PlaceText.h"
 #include "Evaluation/ConstraintMeasures.h"
-#include "Evaluation/LinesInQuads.h"
-#include "Evaluation/QuadPlaces.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -52,17 +49,13 @@ public:
     for (std::size_t i = 0; i < asked.placed.size(); ++i)
     {
       guides += asked.placed[i].guided.empty() ? 0 : 1;
-      for (const GuidedPolygon& guided : asked.placed[i].guided)
-      {
-        strokeOf_[guided.polygon] = i; // the later one goes before
-      }
     }
     mostPlaces_ = mostPlacesOf(guides);
   }
 
   ConstraintWord guideArray(const ArrayConstraints::Region& region)
   {
-    return guide("guide array", region.firstCell, region.measured, region.polygons, std::nullopt);
+    return guide("guide array", region.firstCell, region.measured, std::nullopt);
   }
   ConstraintWord featureEdges(const ArrayConstraints::Curve& curve)
   {
@@ -72,8 +65,8 @@ public:
   {
     return asked.isUsed
       ? valenceAt(asked.point, asked.place, asked.asked)
-      : placed(
-          unknownWord("valence", asked.point, "valence", "no face uses the point"), asked.place);
+      : placed(unknownWord("valence", asked.point, "edge lengths", "no face uses the point"),
+          asked.place);
   }
   ConstraintWord sizes(const std::vector<double>& sizes) const;
   ConstraintWord drawn(std::size_t i)
@@ -93,8 +86,7 @@ private:
     return word;
   }
   ConstraintWord guide(const char* kind, std::int64_t source,
-    const std::vector<GuidedPolygon>& measured, const std::vector<Index>& polygons,
-    std::optional<std::size_t> stroke);
+    const std::vector<GuidedPlace>& measured, std::optional<std::size_t> stroke);
   ConstraintWord feature(std::int64_t source, const std::vector<std::array<Vector3, 2>>& edges)
   {
     return worded("feature curve", source, measures_.curve(edges));
@@ -103,22 +95,17 @@ private:
   {
     return worded("valence", source, measures_.valence(place, asked));
   }
-  ConstraintWord line(const PlacedConstraint& constraint);
-  std::string whyNotAlong(const std::vector<GuidedPolygon>& measured,
-    const std::vector<Index>& polygons, std::optional<std::size_t> stroke,
-    double irregularShare) const;
+  std::string whyNotAlong(const std::vector<GuidedPlace>& measured,
+    std::optional<std::size_t> stroke, double irregularShare);
 
   const AskedConstraints& asked_;
   const QuadMesh& mesh_;
-  std::map<Index, std::size_t> strokeOf_; ///< polygons under strokes
   std::size_t mostPlaces_ = mostPlacesOf(1);
   ConstraintMeasures measures_;
-  std::optional<LinesInQuads> lines_; ///< made when it is needed first
 };
 
 ConstraintWord Judge::guide(const char* kind, std::int64_t source,
-  const std::vector<GuidedPolygon>& measured, const std::vector<Index>& polygons,
-  std::optional<std::size_t> stroke)
+  const std::vector<GuidedPlace>& measured, std::optional<std::size_t> stroke)
 {
   double irregularShare = 0;
   ConstraintWord word =
@@ -126,35 +113,32 @@ ConstraintWord Judge::guide(const char* kind, std::int64_t source,
   // Where nothing was measured the reason says why.
   if (!word.isMet && !std::isnan(word.deviation))
   {
-    word.reason += whyNotAlong(measured, polygons, stroke, irregularShare);
+    word.reason += whyNotAlong(measured, stroke, irregularShare);
   }
   return word;
 }
 
-std::string Judge::whyNotAlong(const std::vector<GuidedPolygon>& measured,
-  const std::vector<Index>& polygons, std::optional<std::size_t> stroke,
-  double irregularShare) const
+std::string Judge::whyNotAlong(const std::vector<GuidedPlace>& measured,
+  std::optional<std::size_t> stroke, double irregularShare)
 {
   std::ostringstream text;
-  std::size_t overruled = 0, by = 0;
   double least = 1;
-  for (const Index polygon : polygons)
-  {
-    const auto found = strokeOf_.find(polygon);
-    if (found != strokeOf_.end() && found->second != stroke)
-    {
-      ++overruled;
-      by = found->second;
-    }
-  }
-  for (const GuidedPolygon& asked : measured)
+  for (const GuidedPlace& asked : measured)
   {
     least = std::min(least, asked.weight);
   }
-  if (overruled > 0)
+  for (std::size_t by = asked_.placed.size(); by-- > (stroke ? *stroke + 1 : 0);)
   {
-    text << "; " << overruled << " of its " << polygons.size() << " cells are under guiding stroke "
-         << asked_.placed[by].source << ", which goes before it";
+    const PlacedConstraint& later = asked_.placed[by];
+    const double share = later.kind == ConstraintKind::Stroke && later.whyNot.empty()
+      ? measures_.shareUnder(later.path, later.radius, measured)
+      : 0;
+    if (share > 0)
+    {
+      text << "; " << percentText(share) << " of it is under guiding stroke " << later.source
+           << ", which goes before it";
+      break;
+    }
   }
   if (irregularShare > kNotableShare)
   {
@@ -172,7 +156,7 @@ std::string Judge::whyNotAlong(const std::vector<GuidedPolygon>& measured,
 /// against their median.
 ConstraintWord Judge::sizes(const std::vector<double>& sizes) const
 {
-  ConstraintWord word = unknownWord("size", -1, "factor", "no quads were made");
+  ConstraintWord word = unknownWord("size", -1, "factor", kNoQuads);
   if (mesh_.quads.empty() || sizes.empty())
   {
     return word;
@@ -229,35 +213,6 @@ ConstraintWord Judge::sizes(const std::vector<double>& sizes) const
   return word;
 }
 
-/// A connection or a cycle: the chain of edges that it became, and how far that is from what was drawn.
-ConstraintWord Judge::line(const PlacedConstraint& constraint)
-{
-  ConstraintWord word = placed(
-    unknownWord(nameOf(constraint.kind), constraint.source, "edge lengths", "no quads were made"),
-    constraint.path.front());
-  if (mesh_.quads.empty() || constraint.curve >= asked_.curves.size())
-  {
-    return word;
-  }
-  if (!lines_)
-  {
-    lines_.emplace(mesh_);
-  }
-  const CurveOutcome& outcome = asked_.curves[constraint.curve];
-  const std::vector<Vector3> chain = lines_->chainOf(constraint, outcome);
-  word.isMet = !chain.empty();
-  word.reason = word.isMet ? ""
-    : outcome.why.empty()  ? "the quads have no straight chain of edges there"
-                           : outcome.why;
-  if (!chain.empty())
-  {
-    const auto [distance, place] = farthestFrom(constraint.path, chain);
-    word.deviation = distance / lines_->edgeLength();
-    word.place = place;
-  }
-  return word;
-}
-
 ConstraintWord Judge::measured(std::size_t i)
 {
   const PlacedConstraint& constraint = asked_.placed[i];
@@ -266,7 +221,8 @@ ConstraintWord Judge::measured(std::size_t i)
     constraint.path.empty() ? Vector3(Vector3::Zero()) : constraint.path.front();
   if (constraint.kind == ConstraintKind::Valence && !constraint.whyNot.empty())
   {
-    return placed(unknownWord("valence", constraint.source, "valence", constraint.whyNot), place);
+    return placed(
+      unknownWord("valence", constraint.source, "edge lengths", constraint.whyNot), place);
   }
   if (constraint.kind == ConstraintKind::Valence)
   {
@@ -274,16 +230,17 @@ ConstraintWord Judge::measured(std::size_t i)
   }
   if (constraint.kind == ConstraintKind::Move && !constraint.whyNot.empty())
   {
-    return placed(unknownWord("move", constraint.source, "valence", constraint.whyNot), place);
+    return placed(unknownWord("move", constraint.source, "edge lengths", constraint.whyNot), place);
   }
   if (constraint.kind == ConstraintKind::Move)
   {
-    return worded(
-      "move", constraint.source, measures_.valence(constraint.path.back(), constraint.valence));
+    return worded("move", constraint.source,
+      measures_.move(constraint.path.front(), constraint.path.back(), constraint.valence));
   }
   if (constraint.kind == ConstraintKind::Connection || constraint.kind == ConstraintKind::Cycle)
   {
-    return line(constraint);
+    return worded(
+      nameOf(constraint.kind), constraint.source, measures_.line(constraint, asked_.curves));
   }
   if (!constraint.whyNot.empty() || (isStroke && constraint.guided.empty()))
   {
@@ -294,19 +251,9 @@ ConstraintWord Judge::measured(std::size_t i)
   }
   if (isStroke)
   {
-    std::vector<Index> polygons;
-    for (const GuidedPolygon& guided : constraint.guided)
-    {
-      polygons.push_back(guided.polygon);
-    }
-    return guide("guide stroke", constraint.source, constraint.guided, polygons, i);
+    return guide("guide stroke", constraint.source, constraint.guided, i);
   }
-  std::vector<std::array<Vector3, 2>> edges;
-  for (std::size_t k = 0; k + 1 < constraint.path.size(); ++k)
-  {
-    edges.push_back({ constraint.path[k], constraint.path[k + 1] });
-  }
-  return feature(constraint.source, edges);
+  return worded("feature curve", constraint.source, measures_.curve(constraint.path));
 }
 
 } // namespace
@@ -365,29 +312,25 @@ std::vector<std::string> offSurfaceNotices(const std::vector<ConstraintWord>& wo
   return notices;
 }
 
-std::vector<std::string> missedValences(
-  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh)
+std::vector<std::string> unmetNotices(
+  const std::vector<ConstraintWord>& words, const AskedConstraints& asked)
 {
-  std::vector<std::string> missed;
-  const bool asksAny = std::any_of(placed.begin(), placed.end(),
-    [](const PlacedConstraint& constraint) { return constraint.kind == ConstraintKind::Valence; });
-  if (mesh.quads.empty() || !asksAny)
+  std::vector<std::string> notices;
+  for (std::size_t i = 0; i < asked.placed.size(); ++i)
   {
-    return missed;
-  }
-  const ReachedValences reached(mesh);
-  for (const PlacedConstraint& constraint : placed)
-  {
-    const bool asks = constraint.kind == ConstraintKind::Valence && constraint.whyNot.empty();
-    const int there = asks ? reached.at(constraint.path.front()) : 0;
-    if (asks && there != constraint.valence)
+    const PlacedConstraint& placed = asked.placed[i];
+    const ConstraintWord& word = words[words.size() - asked.placed.size() + i];
+    const bool isTold = placed.kind == ConstraintKind::Valence || isLine(placed);
+    if (isTold && placed.whyNot.empty() && !word.isMet && word.reason != kNoQuads)
     {
-      missed.push_back("valence " + std::to_string(constraint.valence) + " was asked for at " +
-        placeText(constraint.path.front()) + ", but the quads have " + std::to_string(there) +
-        " there: move the point away from sharp edges and other points, or ask for smaller quads");
+      notices.push_back(std::string(word.kind) + " " + std::to_string(word.source) + " at " +
+        placeText(placed.path.front()) + " is not met: " + word.reason +
+        (placed.kind == ConstraintKind::Valence
+            ? "; move the point away from sharp edges and other points, or ask for smaller quads"
+            : ""));
     }
   }
-  return missed;
+  return notices;
 }
 
 } // namespace quadrille

@@ -47,11 +47,12 @@ std::vector<ConstraintWord> judgeConstraints(
 std::vector<bool> metOfDrawn(
   const std::vector<ConstraintWord>& words, const AskedConstraints& asked);
 
-/// Of the words, those on points that lie farther than an edge length off the surface, as sentences.
+/// Of the words, those on points that lie farther than half an edge length off the surface, as sentences.
 std::vector<std::string> offSurfaceNotices(const std::vector<ConstraintWord>& words);
 
-/// What to do about valences that the quads do not have, with place and both numbers. mesh: what was made.
-std::vector<std::string> missedValences(
-  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh);
+/// Of the words, those on drawn valences, connections and cycles that the quads do not have, as sentences. Those that
+/// were left out are told elsewhere.
+std::vector<std::string> unmetNotices(
+  const std::vector<ConstraintWord>& words, const AskedConstraints& asked);
 
 } // namespace quadrille

@@ -39,33 +39,46 @@ Vector3 weightsIn(const std::array<Vector3, 3>& corners, const Vector3& p)
 //------------------------------------------------------------------------------
 ReachedValences::ReachedValences(const QuadMesh& mesh) : mesh_(mesh)
 {
-  std::vector<BoxTree::Box> boxes;
-  BoxTree::Box all;
-  for (const Vector3& p : mesh.points)
+  const auto finish = [&mesh](Points& points)
   {
-    all = boxes.empty() ? BoxTree::Box{ p, p } : all;
-    all = { all.low.cwiseMin(p), all.high.cwiseMax(p) };
-    boxes.push_back({ p, p });
+    std::vector<BoxTree::Box> boxes;
+    for (const Index p : points.ids)
+    {
+      boxes.push_back({ mesh.points[p], mesh.points[p] });
+    }
+    points.tree = BoxTree(boxes, 1);
+  };
+  for (Index p = 0; p < mesh.points.size(); ++p)
+  {
+    all_.ids.push_back(p);
+    if (valence(p) != kRegularValence)
+    {
+      byValence_[valence(p)].ids.push_back(p);
+    }
   }
-  tolerance_ = 1e-6 * (all.high - all.low).norm();
-  tree_ = BoxTree(boxes, 1);
+  finish(all_);
+  for (auto& [valence, points] : byValence_)
+  {
+    finish(points);
+  }
 }
 
-std::optional<Index> ReachedValences::pointAt(const Vector3& p) const
+std::optional<Index> ReachedValences::nearestIn(const Points& points, const Vector3& p) const
 {
-  const Index found =
-    tree_.nearest(p, [&](Index i) { return (mesh_.points[i] - p).squaredNorm(); });
-  if (found == kInvalidIndex || (mesh_.points[found] - p).norm() > tolerance_)
-  {
-    return std::nullopt;
-  }
-  return found;
+  const Index found = points.tree.nearest(
+    p, [&](Index i) { return (mesh_.points[points.ids[i]] - p).squaredNorm(); });
+  return found == kInvalidIndex ? std::nullopt : std::optional<Index>(points.ids[found]);
 }
 
-int ReachedValences::at(const Vector3& p) const
+std::optional<Index> ReachedValences::nearest(const Vector3& p) const
 {
-  const std::optional<Index> i = pointAt(p);
-  return i ? mesh_.valence[*i] + (mesh_.onBoundary[*i] != 0 ? 1 : 0) : kRegularValence;
+  return nearestIn(all_, p);
+}
+
+std::optional<Index> ReachedValences::nearestOf(int valence, const Vector3& p) const
+{
+  const auto found = byValence_.find(valence);
+  return found == byValence_.end() ? std::nullopt : nearestIn(found->second, p);
 }
 
 //------------------------------------------------------------------------------
@@ -115,6 +128,10 @@ std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
   const double v = isSecond ? weights[1] + weights[2] : weights[2];
   const Vector3 alongU = (1 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);
   const Vector3 alongV = (1 - u) * (corners[3] - corners[0]) + u * (corners[2] - corners[1]);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    place.edgeLength += 0.25 * (corners[(i + 1) % 4] - corners[i]).norm();
+  }
   place.along = { Vector3(alongU.stableNormalized()), Vector3(alongV.stableNormalized()) };
   return place;
 }

@@ -7,27 +7,38 @@
 #include "Mesh/BoxTree.h"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
 namespace quadrille
 {
 
-/// The valence of the quads at a place, on boundaries one more, as it is asked for there; regular where no point of
-/// theirs lies.
+/// Points of the quads near places, with their valences as they are asked for: on boundaries one more than the edges.
 class ReachedValences
 {
 public:
   /// Here, and below, mesh stays as it is while the object is used.
   explicit ReachedValences(const QuadMesh& mesh);
-  int at(const Vector3& p) const;
-  /// The point of the quads at the place, if there is one.
-  std::optional<Index> pointAt(const Vector3& p) const;
+  /// None where there is no point (of that valence).
+  std::optional<Index> nearest(const Vector3& p) const;
+  std::optional<Index> nearestOf(int valence, const Vector3& p) const;
+  int valence(Index point) const
+  {
+    return mesh_.valence[point] + (mesh_.onBoundary[point] != 0 ? 1 : 0);
+  }
 
 private:
+  struct Points
+  {
+    std::vector<Index> ids;
+    BoxTree tree;
+  };
+  std::optional<Index> nearestIn(const Points& points, const Vector3& p) const;
+
   const QuadMesh& mesh_;
-  BoxTree tree_;
-  double tolerance_ = 0;
+  Points all_;
+  std::map<int, Points> byValence_; ///< but for the regular ones
 };
 
 /// The quad nearest to a place, as two triangles.
@@ -38,6 +49,7 @@ public:
   {
     Index quad = kInvalidIndex;
     Vector3 point = Vector3::Zero();
+    double edgeLength = 0; ///< the mean of its four edges
     /// Unit tangents of its two families of edges, blended from opposite edges.
     std::array<Vector3, 2> along;
   };

@@ -92,13 +92,12 @@ struct HeldSector
   }
 };
 
-/// An irregular vertex that stays, by a point of the input near it.
+/// A vertex on features or the boundary that stays, by a point of the input near it.
 struct HeldVertex
 {
   Index point = kInvalidIndex; ///< a corner of the input's triangle that the vertex lies in
   Vector3 place = Vector3::Zero();
-  /// Counterclockwise, of a vertex on features or the boundary; at the boundary from its first one on. Empty: a vertex
-  /// off them, which is the one that the target valence of the point is for.
+  /// Counterclockwise; at the boundary from its first one on. One or more.
   std::vector<HeldSector> sectors;
 
   bool operator==(const HeldVertex& other) const

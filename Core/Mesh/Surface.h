@@ -52,7 +52,7 @@ struct SurfaceInput
   std::vector<CurveRequest> curves; ///< connections and cycles, in units of the points
   /// Vertices inside, on no feature, that no target valence names are to be regular.
   bool regularElsewhere = false;
-  /// Irregular vertices that stay, see HeldVertices.h.
+  /// Vertices on features and boundaries that stay, see HeldVertices.h.
   std::vector<HeldVertex> held;
   /// Curves that pass a vertex, features and boundaries, are to run straight there but for those that are held.
   bool regularOnFeatures = false;

@@ -10,7 +10,6 @@
 #include "Pipeline/RequestKeys.h"
 #include "Pipeline/SmallHandles.h"
 #include "Quads/QuadTopology.h"
-#include "Requests/CurveRequests.h"
 #include "Requests/Guides.h"
 #include "Requests/HeldVertices.h"
 #include "Requests/StraightRequests.h"
@@ -121,14 +120,6 @@ void recordCoarse(
   tell({ levels.notice, refinementNotice(map.refinement) }, made.notices);
   made.curves = std::move(map.curves);
   made.curveOffenders = onFinest(map.curveOffenders, levels.coarse);
-  for (std::size_t i = 0; i < made.curves.size(); ++i)
-  {
-    if (!made.curves[i].met)
-    {
-      made.notices.push_back(
-        curveText(surface->curves[i], i) + " is not met: " + made.curves[i].why);
-    }
-  }
   made.coarse = levels.coarse;
   made.coarseUv = std::move(map.uv);
   if (!map.field.turns.empty()) // there is none where the level is too large for one

@@ -80,7 +80,6 @@ PreparedSurface prepareInput(
   PreparedSurface surface = prepareSurface(std::move(input), prepareOptions);
   SurfaceInput later;
   later.held = std::move(input.held);
-  later.targetValences = later.held.empty() ? std::vector<int>{} : std::move(input.targetValences);
   later.drawn = std::move(input.drawn);
   later.sizingOrders = std::move(input.sizingOrders);
   input = std::move(later);
@@ -95,7 +94,7 @@ PreparedSurface prepareInput(
 /// On the triangles as they are to stay, unlike the other requests.
 void placeHeld(const SurfaceInput& input, PreparedSurface& surface)
 {
-  placeHeldVertices(input, surface, surface.valenceRequests, surface.sectorRequests);
+  surface.sectorRequests = placeHeldVertices(input, surface);
 }
 
 bool refuseTooMany(const RemeshOptions& options, SizedSurface& sized)

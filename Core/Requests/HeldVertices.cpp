@@ -148,7 +148,7 @@ std::vector<HeldCandidate> candidatesOf(const SurfaceInput& input, const Prepare
     for (; at != byPoint.end() && at->first == point; ++at)
     {
       const HeldVertex& held = input.held[at->second];
-      if ((curves[v] != kInvalidIndex) == !held.sectors.empty())
+      if (curves[v] != kInvalidIndex)
       {
         candidates.push_back({ at->second, (mesh.position[v] - held.place).squaredNorm(), v });
       }
@@ -176,41 +176,31 @@ std::vector<HeldCandidate> candidatesOf(const SurfaceInput& input, const Prepare
 
 } // namespace
 
-void placeHeldVertices(const SurfaceInput& input, const PreparedSurface& surface,
-  std::vector<ValenceRequest>& requests, std::vector<SectorRequest>& sectors)
+std::vector<SectorRequest> placeHeldVertices(
+  const SurfaceInput& input, const PreparedSurface& surface)
 {
-  sectors.clear();
+  std::vector<SectorRequest> sectors;
   if (input.held.empty())
   {
-    return;
+    return sectors;
   }
   std::vector<std::uint8_t> taken(surface.mesh.vertexCount(), 0);
-  for (const ValenceRequest& request : requests)
+  for (const ValenceRequest& request : surface.valenceRequests)
   {
     taken[request.vertex] = 1;
   }
   std::vector<std::uint8_t> placed(input.held.size(), 0);
   for (const HeldCandidate& candidate : candidatesOf(input, surface))
   {
-    const HeldVertex& held = input.held[candidate.held];
-    if (placed[candidate.held] != 0 || taken[candidate.vertex] != 0)
+    if (placed[candidate.held] == 0 && taken[candidate.vertex] == 0)
     {
-      continue;
-    }
-    placed[candidate.held] = taken[candidate.vertex] = 1;
-    if (!held.sectors.empty())
-    {
-      sectors.push_back({ candidate.vertex, held.sectors });
-    }
-    else if (held.point < input.targetValences.size() && input.targetValences[held.point] != 0)
-    {
-      requests.push_back({ candidate.vertex, input.targetValences[held.point], held.point });
+      placed[candidate.held] = taken[candidate.vertex] = 1;
+      sectors.push_back({ candidate.vertex, input.held[candidate.held].sectors });
     }
   }
-  std::sort(requests.begin(), requests.end(),
-    [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
   std::sort(sectors.begin(), sectors.end(),
     [](const SectorRequest& a, const SectorRequest& b) { return a.vertex < b.vertex; });
+  return sectors;
 }
 
 std::vector<SectorRequest> sectorsOf(const Mesh& level, const std::vector<std::int8_t>& sectorTurns,

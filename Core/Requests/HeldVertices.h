@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Irregular vertices of earlier quads that are to stay where they are, also where refinement has made the vertex, and
-/// on features and boundaries, where each sector makes quarter turns of its own.
+/// Vertices of earlier quads on features and boundaries that are to stay as they are, where each sector makes quarter
+/// turns of its own; also where refinement has made the vertex.
 #pragma once
 
 #include "Mesh/Requests.h"
@@ -16,11 +16,11 @@ struct Mesh;
 struct PreparedSurface;
 struct SurfaceInput;
 
-/// The vertices that are meant: of those that are corners of triangles at the point, on features or off them, the
-/// nearest one to the place that is not taken yet; in the order of `held`. Those without such a vertex are left out.
-/// requests: gets the valences of those off features, ascending by vertex.
-void placeHeldVertices(const SurfaceInput& input, const PreparedSurface& surface,
-  std::vector<ValenceRequest>& requests, std::vector<SectorRequest>& sectors);
+/// Of the vertices that are meant: of those on features and boundaries that are corners of triangles at the point, the
+/// nearest one to the place that is not taken yet, by a valence that is asked for or another one; in the order of
+/// `held`. Those without such a vertex are left out. Ascending by vertex.
+std::vector<SectorRequest> placeHeldVertices(
+  const SurfaceInput& input, const PreparedSurface& surface);
 
 /// Sectors of the vertices of a level on its features and boundary that are flagged. sectorTurns: #H, see CrossField;
 /// fineVertex: #V, their ids.

@@ -3,128 +3,20 @@
 #include "Requests/SurfacePlaces.h"
 
 #include "Base/Error.h"
+#include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Triangulate.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
-#include <map>
-#include <queue>
 #include <string>
-#include <unordered_map>
-#include <utility>
+#include <vector>
 
 namespace quadrille
 {
 
-namespace
-{
-
-/// A path may be this many times longer than needed rather than leave the segment by its own length.
-constexpr double kDetourPenalty = 10;
-
-template <class Visit>
-void forEachEdge(const SurfaceInput& input, Visit visit)
-{
-  for (std::size_t p = 0; p + 1 < input.polygonOffsets.size(); ++p)
-  {
-    const Index begin = input.polygonOffsets[p];
-    const Index corners = input.polygonOffsets[p + 1] - begin;
-    for (Index i = 0; i < corners && i < 8; ++i) // eight bits a polygon
-    {
-      visit(static_cast<Index>(p), i, input.polygonPoints[begin + i],
-        input.polygonPoints[begin + (i + 1) % corners]);
-    }
-  }
-}
-
-} // namespace
-
-EdgeGraph makeEdgeGraph(const SurfaceInput& input)
-{
-  EdgeGraph graph;
-  graph.first.assign(input.points.size() + 2, 0);
-  forEachEdge(input,
-    [&](Index, Index, Index a, Index b)
-    {
-      ++graph.first[a + 2];
-      ++graph.first[b + 2];
-    });
-  for (std::size_t i = 2; i < graph.first.size(); ++i)
-  {
-    graph.first[i] += graph.first[i - 1];
-  }
-  graph.uses.resize(graph.first.back());
-  forEachEdge(input,
-    [&](Index p, Index i, Index a, Index b)
-    {
-      const auto bit = static_cast<std::uint8_t>(1 << i);
-      graph.uses[graph.first[a + 1]++] = { b, p, bit };
-      graph.uses[graph.first[b + 1]++] = { a, p, bit };
-    });
-  return graph;
-}
-
-std::vector<Index> findEdgePath(
-  const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b, double haste)
-{
-  struct Reached
-  {
-    double cost;
-    Index from;
-  };
-  using Entry = std::pair<double, Index>;
-  std::unordered_map<Index, Reached> reached; // only looked up, so its order does not matter
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  const Vector3& start = input.points[a];
-  const Vector3& end = input.points[b];
-  const double scale = kDetourPenalty / std::max((end - start).norm(), 1e-300);
-  const auto awayOf = [&](Index v) { return distanceToSegment(input.points[v], start, end); };
-  // A way back to the segment is as long as it is far, and what it costs beside it is the integral of the distance.
-  const auto atLeast = [&](double cost, Index v)
-  {
-    const double away = awayOf(v);
-    return cost + haste * ((input.points[v] - end).norm() + 0.5 * scale * away * away);
-  };
-  reached[a] = { 0, a };
-  front.push({ atLeast(0, a), a });
-  while (!front.empty() && front.top().second != b)
-  {
-    const auto [whole, v] = front.top();
-    front.pop();
-    const double cost = reached[v].cost;
-    if (whole > atLeast(cost, v))
-    {
-      continue;
-    }
-    const double awayHere = awayOf(v);
-    for (std::size_t i = graph.first[v]; i < graph.first[v + 1]; ++i)
-    {
-      const Index w = graph.uses[i].target;
-      const double length = (input.points[w] - input.points[v]).norm();
-      const double next = cost + length * (1 + 0.5 * scale * (awayHere + awayOf(w)));
-      const auto found = reached.find(w);
-      if (found == reached.end() || next < found->second.cost)
-      {
-        reached[w] = { next, v };
-        front.push({ atLeast(next, w), w });
-      }
-    }
-  }
-  std::vector<Index> path;
-  if (!front.empty())
-  {
-    for (Index v = b; v != a; v = reached[v].from)
-    {
-      path.push_back(v);
-    }
-    path.push_back(a);
-  }
-  return path;
-}
 double meanEdge(const SurfaceInput& input, Index polygon)
 {
   const Index begin = input.polygonOffsets[polygon];
@@ -153,6 +45,24 @@ double diagonalOf(const SurfaceInput& input)
     high = high.cwiseMax(p);
   }
   return (high - low).norm();
+}
+
+double areaOfPolygons(const SurfaceInput& input)
+{
+  double area = 0;
+  for (std::size_t i = 0; i + 1 < input.polygonOffsets.size(); ++i)
+  {
+    const Index first = input.polygonOffsets[i];
+    for (Index k = first + 2; k < input.polygonOffsets[i + 1]; ++k)
+    {
+      const Vector3& a = input.points[input.polygonPoints[first]];
+      area += 0.5 *
+        (input.points[input.polygonPoints[k - 1]] - a)
+          .cross(input.points[input.polygonPoints[k]] - a)
+          .norm();
+    }
+  }
+  return area;
 }
 
 void requirePolygons(const SurfaceInput& input)
@@ -190,31 +100,18 @@ void requirePolygons(const SurfaceInput& input)
 }
 
 SurfacePlaces::SurfacePlaces(const SurfaceInput& input, int threads)
-  : input_(input), threads_(threads), diagonal_(diagonalOf(input)), isUsed_(input.points.size(), 0)
+  : input_(input), threads_(threads), diagonal_(diagonalOf(input))
 {
   requirePolygons(input);
-  for (const Index p : input.polygonPoints)
-  {
-    isUsed_[p] = 1;
-  }
 }
 
-void SurfacePlaces::makeCornerTree() const
+void SurfacePlaces::makeTriangles() const
 {
-  std::vector<BoxTree::Box> boxes;
-  for (std::size_t i = 0; i < isUsed_.size(); ++i)
+  if (hasTriangles_)
   {
-    if (isUsed_[i] != 0)
-    {
-      corners_.push_back(static_cast<Index>(i));
-      boxes.push_back({ input_.points[i], input_.points[i] });
-    }
+    return;
   }
-  cornerTree_.emplace(boxes, threads_);
-}
-
-void SurfacePlaces::makeTriangleTree() const
-{
+  hasTriangles_ = true;
   bool onlyTriangles = true;
   for (std::size_t i = 0; i + 1 < input_.polygonOffsets.size(); ++i)
   {
@@ -227,8 +124,17 @@ void SurfacePlaces::makeTriangleTree() const
     trianglePoints_ = triangles.mesh.origin.take();
     trianglePolygon_ = triangles.sourcePolygon.take();
   }
-  std::vector<BoxTree::Box> boxes(
-    (onlyTriangles ? input_.polygonPoints.size() : trianglePoints_.size()) / 3);
+}
+
+Index SurfacePlaces::triangleCount() const
+{
+  return static_cast<Index>(
+    (trianglePoints_.empty() ? input_.polygonPoints.size() : trianglePoints_.size()) / 3);
+}
+
+void SurfacePlaces::makeTriangleTree() const
+{
+  std::vector<BoxTree::Box> boxes(triangleCount());
   for (std::size_t i = 0; i < boxes.size(); ++i)
   {
     pollNowAndThen(i);
@@ -239,13 +145,39 @@ void SurfacePlaces::makeTriangleTree() const
   triangleTree_.emplace(boxes, threads_);
 }
 
-const EdgeGraph& SurfacePlaces::edges() const
+Index SurfacePlaces::nearestOfAll(const Vector3& p) const
 {
-  if (!edges_)
+  constexpr std::size_t kPlacesChunk = 1 << 15;
+  struct Found
   {
-    edges_ = makeEdgeGraph(input_);
+    double squared = std::numeric_limits<double>::infinity();
+    Index triangle = kInvalidIndex;
+  };
+  const std::size_t count = triangleCount();
+  std::vector<Found> parts((count + kPlacesChunk - 1) / kPlacesChunk);
+  parallelFor(count, kPlacesChunk, threads_,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Found& best = parts[begin / kPlacesChunk];
+      for (Index i = static_cast<Index>(begin); i < end; ++i)
+      {
+        const std::array<Vector3, 3> corner = triangle(i);
+        const BoxTree::Box box{ corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),
+          corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]) };
+        if (box.squaredDistance(p) < best.squared)
+        {
+          const double squared =
+            (nearestOnTriangle(p, corner[0], corner[1], corner[2]) - p).squaredNorm();
+          best = squared < best.squared ? Found{ squared, i } : best;
+        }
+      }
+    });
+  Found best;
+  for (const Found& part : parts)
+  {
+    best = part.squared < best.squared ? part : best;
   }
-  return *edges_;
+  return best.triangle;
 }
 
 std::array<Vector3, 3> SurfacePlaces::triangle(Index i) const
@@ -258,43 +190,11 @@ std::array<Vector3, 3> SurfacePlaces::triangle(Index i) const
     input_.points[points[first + 2]] };
 }
 
-Index SurfacePlaces::nearestCorner(const Vector3& p) const
-{
-  constexpr int kQuestionsForTree = 16; // so many looks at all points take as long as making one
-  const auto squaredDistance = [&](std::size_t i) { return (input_.points[i] - p).squaredNorm(); };
-  Index nearest = kInvalidIndex;
-  if (!cornerTree_ && ++cornerQuestions_ > kQuestionsForTree)
-  {
-    makeCornerTree();
-  }
-  if (cornerTree_)
-  {
-    const Index i = cornerTree_->nearest(p, [&](Index k) { return squaredDistance(corners_[k]); });
-    nearest = i == kInvalidIndex ? i : corners_[i];
-  }
-  else
-  {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < isUsed_.size(); ++i)
-    {
-      const double squared = squaredDistance(i);
-      if (squared < least && isUsed_[i] != 0)
-      {
-        least = squared;
-        nearest = static_cast<Index>(i);
-      }
-    }
-  }
-  if (nearest == kInvalidIndex)
-  {
-    throw InvalidInput("no point of the surface was found near the place " + placeText(p));
-  }
-  return nearest;
-}
-
 SurfacePlaces::Place SurfacePlaces::nearestPlace(const Vector3& p) const
 {
-  if (!triangleTree_)
+  constexpr int kQuestionsForTree = 8; // so many looks at all triangles take as long as making one
+  makeTriangles();
+  if (!triangleTree_ && ++questions_ > kQuestionsForTree)
   {
     makeTriangleTree();
   }
@@ -303,33 +203,50 @@ SurfacePlaces::Place SurfacePlaces::nearestPlace(const Vector3& p) const
     const std::array<Vector3, 3> corner = triangle(i);
     return nearestOnTriangle(p, corner[0], corner[1], corner[2]);
   };
-  const Index nearest =
-    triangleTree_->nearest(p, [&](Index i) { return (placeOn(i) - p).squaredNorm(); });
+  const Index nearest = triangleTree_
+    ? triangleTree_->nearest(p, [&](Index i) { return (placeOn(i) - p).squaredNorm(); })
+    : nearestOfAll(p);
   if (nearest == kInvalidIndex)
   {
     throw InvalidInput("no place on the surface was found for the point " + placeText(p));
   }
-  return { trianglePolygon_.empty() ? nearest : trianglePolygon_[nearest], placeOn(nearest) };
+  // What lies on the surface already, up to rounding, stays where it is.
+  constexpr double kRoundingOfPlace = 1e-14;
+  const Vector3 place = placeOn(nearest);
+  const bool isOn = (place - p).norm() <= kRoundingOfPlace * diagonal_;
+  return { trianglePolygon_.empty() ? nearest : trianglePolygon_[nearest], isOn ? p : place };
 }
 
-bool SurfacePlaces::isOnBoundary(Index point) const
+bool SurfacePlaces::isOnBoundary(const Place& place) const
 {
-  std::map<Index, int> polygons; // by the other end of the edge
-  for (std::size_t i = 0; i + 1 < input_.polygonOffsets.size(); ++i)
+  constexpr double kOnBoundaryEdge = 1e-6; // of the polygon's mean edge
+  struct Edge
   {
-    const Index begin = input_.polygonOffsets[i];
-    const Index corners = input_.polygonOffsets[i + 1] - begin;
-    for (Index k = 0; k < corners; ++k)
+    Vector3 a, b;
+    int polygons = 0;
+  };
+  std::vector<Edge> edges; // at the place
+  const double near = kOnBoundaryEdge * meanEdge(input_, place.polygon);
+  for (std::size_t polygon = 0; polygon + 1 < input_.polygonOffsets.size(); ++polygon)
+  {
+    const Index begin = input_.polygonOffsets[polygon];
+    const Index corners = input_.polygonOffsets[polygon + 1] - begin;
+    for (Index i = 0; i < corners; ++i)
     {
-      if (input_.polygonPoints[begin + k] == point)
+      const Vector3& a = input_.points[input_.polygonPoints[begin + i]];
+      const Vector3& b = input_.points[input_.polygonPoints[begin + (i + 1) % corners]];
+      if (a == b || distanceToSegment(place.point, a, b) > near)
       {
-        ++polygons[input_.polygonPoints[begin + (k + 1) % corners]];
-        ++polygons[input_.polygonPoints[begin + (k + corners - 1) % corners]];
+        continue;
       }
+      const auto found = std::find_if(edges.begin(), edges.end(),
+        [&](const Edge& edge)
+        { return (edge.a == a && edge.b == b) || (edge.a == b && edge.b == a); });
+      ++(found == edges.end() ? *edges.insert(edges.end(), { a, b, 0 }) : *found).polygons;
     }
   }
   return std::any_of(
-    polygons.begin(), polygons.end(), [](const auto& edge) { return edge.second == 1; });
+    edges.begin(), edges.end(), [](const Edge& edge) { return edge.polygons == 1; });
 }
 
 } // namespace quadrille

@@ -1,41 +1,17 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Places, edges and paths of a surface as the user handed it in, for what is drawn beside it.
+/// Places of a surface as the user handed it in, for what is drawn beside it.
 #pragma once
 
 #include "Mesh/BoxTree.h"
 #include "Mesh/Surface.h"
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace quadrille
 {
-
-struct EdgeUse
-{
-  Index target = 0;
-  Index polygon = 0;
-  std::uint8_t bit = 0;
-};
-
-/// Edges of the polygons by their start, both directions: CSR.
-struct EdgeGraph
-{
-  std::vector<std::size_t> first;
-  std::vector<EdgeUse> uses;
-};
-
-EdgeGraph makeEdgeGraph(const SurfaceInput& input);
-
-/// Points from b back to a along edges, by the A* algorithm [Hart, Nilsson, Raphael 1968] with the distance to b; edges
-/// cost more the farther they are from the straight segment. Empty: no path. haste: >= 1; the path costs at most so
-/// many times what the best one does, and is found the sooner for it [weighted A*, Pohl 1970].
-std::vector<Index> findEdgePath(
-  const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b, double haste = 1);
 
 /// The mean length of a polygon's edges.
 double meanEdge(const SurfaceInput& input, Index polygon);
@@ -43,13 +19,16 @@ double meanEdge(const SurfaceInput& input, Index polygon);
 /// The diagonal of the box round all points.
 double diagonalOf(const SurfaceInput& input);
 
+/// The sum over all polygons, whatever their corners are in.
+double areaOfPolygons(const SurfaceInput& input);
+
 /// Throws InvalidInput, naming the polygon or the point, where offsets or ids are out of range, or a coordinate that a
 /// polygon uses is not finite.
 void requirePolygons(const SurfaceInput& input);
 
-/// The nearest place on the polygons, and the nearest of the points that they use: an isolated one would be nobody's
-/// edge. Of places that are equally near, the one with the lowest id. What a question needs is made with the first one:
-/// trees and edges of two million triangles take a tenth of a run. Not for several threads at once.
+/// The nearest place on the polygons; of places that are equally near, that on the polygon with the lowest id. The first
+/// questions look at all triangles, further ones make a tree: that of two million triangles takes a tenth of a run. Not
+/// for several threads at once.
 class SurfacePlaces
 {
 public:
@@ -63,29 +42,27 @@ public:
   /// requirePolygons does.
   explicit SurfacePlaces(const SurfaceInput& input, int threads = 1);
 
-  Index nearestCorner(const Vector3& p) const;
-  /// Throws InvalidInput for a point that is not finite.
+  /// A point that lies on the surface up to rounding stays as it is. Throws InvalidInput for one that is not finite.
   Place nearestPlace(const Vector3& p) const;
-  const EdgeGraph& edges() const;
   double diagonal() const { return diagonal_; }
-  /// An edge from the point has one polygon only.
-  bool isOnBoundary(Index point) const;
+  /// It lies on an edge that one polygon only has, up to rounding; points at one place count as one.
+  bool isOnBoundary(const Place& place) const;
 
 private:
   std::array<Vector3, 3> triangle(Index i) const;
-  void makeCornerTree() const;
+  Index triangleCount() const;
+  void makeTriangles() const;
+  Index nearestOfAll(const Vector3& p) const;
   void makeTriangleTree() const;
 
   const SurfaceInput& input_;
   int threads_;
   double diagonal_ = 0;
-  std::vector<std::uint8_t> isUsed_; ///< per point: by a polygon
-  mutable int cornerQuestions_ = 0;
-  mutable std::vector<Index> corners_;         ///< points that polygons use
   mutable std::vector<Index> trianglePoints_;  ///< empty where all polygons are triangles
   mutable std::vector<Index> trianglePolygon_; ///< the same
-  mutable std::optional<BoxTree> cornerTree_, triangleTree_;
-  mutable std::optional<EdgeGraph> edges_;
+  mutable bool hasTriangles_ = false;          ///< these two are made, if they are needed
+  mutable int questions_ = 0;
+  mutable std::optional<BoxTree> triangleTree_;
 };
 
 } // namespace quadrille

@@ -4,7 +4,6 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
-#include "Requests/CurveRequests.h"
 #include "Session/IrregularEdits.h"
 
 #include <algorithm>
@@ -14,15 +13,15 @@ namespace quadrille
 namespace
 {
 
-/// Lines that are remembered; a stroke of ten thousand polygons takes a megabyte.
+/// Lines that are remembered; one across ten thousand polygons takes a megabyte.
 constexpr std::size_t kMostPlacements = 256;
 
 class Composition
 {
 public:
-  Composition(const SurfaceInput& surface, const SurfacePlaces& places, LinePlacements& lines,
+  Composition(const SurfaceInput& surface, const PlacesOfSession& where, LinePlacements& lines,
     const SessionConstraints& constraints, bool holdFeatures)
-    : surface_(surface), places_(places), lines_(lines), constraints_(constraints),
+    : surface_(surface), where_(where), lines_(lines), constraints_(constraints),
       holdFeatures_(holdFeatures)
   {
     composed_.input = surface;
@@ -31,9 +30,14 @@ public:
     {
       if (surface.targetValences[p] != 0)
       {
-        asked_[static_cast<Index>(p)] = { surface.targetValences[p], "the array of valences" };
+        asked_.push_back({ surface.points[p], surface.targetValences[p], "the array of valences" });
       }
     }
+    for (const ValencePlace& asked : surface.drawn.valences)
+    {
+      asked_.push_back({ asked.place, asked.valence, "a valence point" });
+    }
+    ofSurface_ = asked_.size();
   }
 
   ComposedInput run(const std::map<int, std::string>& leftOut)
@@ -68,8 +72,7 @@ public:
     const LinePlacements::Placed& placed = takePlaced();
     if (part().whyNot.empty())
     {
-      part().path = placed.line.path;
-      addFeatureMarks(composed_.input, polygons(), placed.features);
+      composed_.input.drawn.features.push_back(placed.requests.features.front());
     }
   }
 
@@ -79,7 +82,8 @@ public:
     if (part().whyNot.empty())
     {
       part().guided = placed.line.guided;
-      takeGuides(placed.guides);
+      composed_.input.drawn.strokes.push_back(placed.requests.strokes.front());
+      composed_.input.drawn.strokes.back().order = order();
     }
   }
 
@@ -88,63 +92,55 @@ public:
     std::vector<Index> polygons = region.polygons;
     std::sort(polygons.begin(), polygons.end());
     polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
-    std::vector<GuideMark> marks;
     for (const Index polygon : polygons)
     {
-      if (surface_.polygonOffsets[polygon] == surface_.polygonOffsets[polygon + 1])
+      if (surface_.polygonOffsets[polygon] != surface_.polygonOffsets[polygon + 1])
       {
-        continue;
+        part().guided.push_back(guidedPolygon(surface_, polygon, region.direction, region.weight));
       }
-      marks.push_back({ polygon, region.direction.stableNormalized(), region.weight });
-      part().guided.push_back(guidedPolygon(surface_, polygon, region.direction, region.weight));
     }
-    if (marks.empty())
+    if (part().guided.empty())
     {
       part().whyNot = "its polygons have no corners";
       return;
     }
-    part().place = part().guided.front().centre;
-    takeGuides(marks);
+    part().place = part().guided.front().place;
+    takeGuides(region);
   }
 
   void operator()(const ValenceAt& at)
   {
-    const Index point = places_.nearestCorner(at.point);
-    part().place = surface_.points[point];
-    if (at.valence == kLeastValence && places_.isOnBoundary(point))
+    const SurfacePlaces::Place place = where_.places.nearestPlace(at.point);
+    part().place = place.point;
+    if (at.valence < kLeastOnBoundary && where_.places.isOnBoundary(place))
     {
-      refuse("valence ", at.valence, " is asked for at ", placeText(surface_.points[point]),
+      refuse("valence ", at.valence, " is asked for at ", placeText(place.point),
         ", on the boundary, where the least is 3, a corner with one quad: ask for 3 or more");
     }
-    const int by = list_.changedBy(point);
-    if (by != 0 && list_.valenceAt(point) != at.valence)
+    const Vector3 same = list_.sameAs(place.point, where_.sameWithin);
+    const int by = list_.changedBy(same);
+    if (by != 0 && list_.valenceAt(same) != at.valence)
     {
-      refuse("it asks for valence ", at.valence, " at ", placeText(surface_.points[point]),
-        ", where ", nameOf(by), " has made one of ", list_.valenceAt(point),
-        ": remove one of the two");
+      refuse("it asks for valence ", at.valence, " at ", placeText(place.point), ", where ",
+        nameOf(by), " has made one of ", list_.valenceAt(same), ": remove one of the two");
     }
-    const auto [found, isNew] = asked_.emplace(point, Asked{ at.valence, name() });
-    if (!isNew && found->second.valence != at.valence)
+    const Asked* other = askedAt(place.point);
+    if (other != nullptr && other->valence != at.valence)
     {
-      refuse("it asks for valence ", at.valence, " at ", placeText(surface_.points[point]),
-        ", where ", found->second.by, " asks for ", found->second.valence,
-        ": remove one of the two");
+      refuse("it asks for valence ", at.valence, " at ", placeText(place.point), ", where ",
+        other->by, " asks for ", other->valence, ": remove one of the two");
+    }
+    if (other == nullptr)
+    {
+      asked_.push_back({ same, at.valence, name() });
+      part().place = same;
     }
   }
 
   void operator()(const SizeAt& at)
   {
-    const Index nearest = places_.nearestCorner(at.point);
-    part().place = surface_.points[nearest];
-    std::vector<Index> points{ nearest };
-    for (std::size_t p = 0; at.radius > 0 && p < surface_.points.size(); ++p)
-    {
-      if (p != nearest && (surface_.points[p] - at.point).norm() <= at.radius)
-      {
-        points.push_back(static_cast<Index>(p));
-      }
-    }
-    takeSizes(std::move(points), at.factor);
+    part().place = where_.places.nearestPlace(at.point).point;
+    composed_.input.drawn.sizes.push_back({ part().place, at.radius, at.factor, order() });
   }
 
   void operator()(const SizeRegion& region)
@@ -161,7 +157,7 @@ public:
       return;
     }
     part().place = surface_.points[points.front()];
-    takeSizes(std::move(points), region.factor);
+    takeSizes(points, region.factor);
   }
 
   void operator()(const IrregularEdit& edit)
@@ -169,31 +165,27 @@ public:
     IrregularList next = list_;
     for (const IrregularEdit::Change& change : edit.changes)
     {
-      part().place = surface_.points[change.point];
+      part().place = change.place;
     }
-    part().whyNot = next.apply(id(), constraints_[at_]->revision, edit, surface_);
+    part().whyNot = next.apply(id(), constraints_[at_]->revision, edit);
     if (!part().whyNot.empty())
     {
       return;
     }
     for (const IrregularEdit::Change& change : edit.changes)
     {
-      const auto found = asked_.find(change.point);
-      if (found != asked_.end() && found->second.valence != change.after)
+      const Asked* asked = askedAt(change.place);
+      if (asked != nullptr && asked->valence != change.after)
       {
-        refuse("it would make a vertex of valence ", change.after, " at ",
-          placeText(surface_.points[change.point]), ", where ", found->second.by, " asks for ",
-          found->second.valence, ": remove one of the two");
+        refuse("it would make a vertex of valence ", change.after, " at ", placeText(change.place),
+          ", where ", asked->by, " asks for ", asked->valence, ": remove one of the two");
       }
     }
     list_ = std::move(next);
   }
 
-  void operator()(const Connection& connection)
-  {
-    addCurve({ CurveKind::Connection, connection.points });
-  }
-  void operator()(const Cycle& cycle) { addCurve({ CurveKind::Cycle, cycle.points }); }
+  void operator()(const Connection&) { addCurve(); }
+  void operator()(const Cycle&) { addCurve(); }
   void operator()(const MirrorSymmetry&) { takeSymmetry(); }
   void operator()(const RotationalSymmetry&) { takeSymmetry(); }
 
@@ -211,13 +203,23 @@ private:
 
   struct Asked
   {
+    Vector3 place = Vector3::Zero();
     int valence = 0;
     std::string by;
   };
 
+  /// Of what is asked for at the same place the first one; null: nothing.
+  const Asked* askedAt(const Vector3& place) const
+  {
+    const auto found = std::find_if(asked_.begin(), asked_.end(),
+      [&](const Asked& asked) { return (asked.place - place).norm() <= where_.sameWithin; });
+    return found == asked_.end() ? nullptr : &*found;
+  }
+
   std::size_t polygons() const { return surface_.polygonOffsets.size() - 1; }
   PlacedPart& part() { return composed_.parts[at_]; }
   int id() const { return constraints_[at_]->id; }
+  int order() const { return static_cast<int>(at_) + 1; }
   std::string name() const { return constraints_[at_]->name(); }
   std::string nameOf(int id) const
   {
@@ -226,129 +228,134 @@ private:
     return (*found)->name();
   }
 
-  void addCurve(CurveRequest curve)
+  void addCurve()
   {
-    std::vector<CurveRequest>& curves = composed_.input.curves;
-    checkCurve(curve, curves.size());
-    part().curve = curves.size();
-    curves.push_back(std::move(curve));
+    const LinePlacements::Placed& placed = takePlaced();
+    part().curve = composed_.input.curves.size();
+    composed_.input.curves.push_back(placed.curves.front());
   }
 
   const LinePlacements::Placed& takePlaced()
   {
-    const LinePlacements::Placed& placed = lines_.of(constraints_[at_], surface_, places_);
+    const LinePlacements::Placed& placed = lines_.of(constraints_[at_], surface_, where_);
     part().whyNot = placed.line.whyNot;
+    part().path = placed.line.path;
     part().place = placed.line.path.empty() ? part().place : placed.line.path.front();
     composed_.notices.insert(composed_.notices.end(), placed.notices.begin(), placed.notices.end());
     return placed;
   }
 
-  void overrule(std::map<Index, std::size_t>& owners, Index element)
+  void takeGuides(const GuideRegion& region)
   {
-    const auto [found, isNew] = owners.emplace(element, at_);
-    if (!isNew && found->second != at_)
+    SurfaceInput& input = composed_.input;
+    input.guideDirections.resize(polygons(), Vector3::Zero());
+    input.guideWeights.resize(polygons(), 1);
+    input.guideOrders.resize(polygons(), 0);
+    for (const GuidedPlace& guided : part().guided)
     {
-      PlacedPart& earlier = composed_.parts[found->second];
-      ++earlier.overruled;
-      earlier.overruledBy = id();
-      found->second = at_;
+      input.guideDirections[guided.polygon] = region.direction.stableNormalized();
+      input.guideWeights[guided.polygon] = region.weight;
+      input.guideOrders[guided.polygon] = order();
     }
   }
 
-  void takeGuides(const std::vector<GuideMark>& marks)
+  void takeSizes(const std::vector<Index>& points, double factor)
   {
-    addGuideMarks(composed_.input, polygons(), marks);
-    for (const GuideMark& mark : marks)
-    {
-      overrule(guideOf_, mark.polygon);
-    }
-  }
-
-  void takeSizes(std::vector<Index> points, double factor)
-  {
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    composed_.input.sizing.resize(surface_.points.size(), 1.0F);
+    SurfaceInput& input = composed_.input;
+    input.sizing.resize(surface_.points.size(), 1.0F);
+    input.sizingOrders.resize(surface_.points.size(), 0);
     for (const Index point : points)
     {
-      composed_.input.sizing[point] = static_cast<float>(factor);
-      overrule(sizeOf_, point);
+      input.sizing[point] = static_cast<float>(factor);
+      input.sizingOrders[point] = order();
     }
-    part().points = std::move(points);
   }
 
   /// Where the valences that are asked for keep the sum of indices, all vertices that no one names stay regular.
   void setValences()
   {
     SurfaceInput& input = composed_.input;
-    if (asked_.empty() && !list_.isInForce())
+    std::vector<ValencePlace>& valences = input.drawn.valences;
+    for (std::size_t i = ofSurface_; i < asked_.size(); ++i)
+    {
+      valences.push_back({ asked_[i].place, asked_[i].valence });
+    }
+    if (!list_.isInForce())
     {
       return;
     }
-    input.targetValences.assign(surface_.points.size(), 0);
-    for (const auto& [point, valence] : list_.valences())
-    {
-      input.targetValences[point] = valence;
-    }
     int off = 0;
     std::size_t others = 0;
-    for (const auto& [point, asked] : asked_)
+    for (const Asked& asked : asked_)
     {
-      input.targetValences[point] = asked.valence;
-      const int missing = list_.valenceAt(point) - asked.valence;
+      const int missing = valenceInList(asked) - asked.valence;
       others += missing != 0 ? 1 : 0;
-      if (list_.isInForce() && missing != 0 && !places_.isOnBoundary(point))
+      if (missing != 0 && !where_.places.isOnBoundary(where_.places.nearestPlace(asked.place)))
       {
         off += missing;
       }
     }
-    input.regularElsewhere = surface_.regularElsewhere || (list_.isInForce() && off == 0);
-    if (list_.isInForce())
+    input.regularElsewhere = surface_.regularElsewhere || off == 0;
+    for (const auto& [place, valence] : list_.valences())
     {
-      setIrregular();
-      composed_.lastOperation = list_.links().back().id;
-      hold(others == 0 && off == 0);
+      // What operations have made regular has to stay so, unless everything has to.
+      const bool isNeeded = valence != kRegularValence ||
+        (!input.regularElsewhere && list_.changedBy(place) != 0 && !isIrregularInList(place));
+      if (isNeeded && askedAt(place) == nullptr)
+      {
+        valences.push_back({ place, valence });
+      }
     }
+    setIrregular();
+    composed_.lastOperation = list_.links().back().id;
+    hold(others == 0 && off == 0);
+  }
+
+  /// At the same place, that is.
+  bool isIrregularInList(const Vector3& place) const
+  {
+    return std::any_of(list_.valences().begin(), list_.valences().end(),
+      [&](const auto& entry) {
+        return entry.second != kRegularValence && (entry.first - place).norm() <= where_.sameWithin;
+      });
+  }
+  int valenceInList(const Asked& asked) const
+  {
+    return list_.valenceAt(list_.sameAs(asked.place, where_.sameWithin));
   }
 
   /// Those that operations lead to, and the others that are asked for.
   void setIrregular()
   {
-    composed_.irregular = list_.irregular(surface_);
+    composed_.irregular = list_.irregular();
     std::vector<IrregularVertex>& all = composed_.irregular;
     all.erase(std::remove_if(all.begin(), all.end(),
                 [this](const IrregularVertex& vertex)
                 {
-                  const auto found = asked_.find(vertex.point);
-                  return found != asked_.end() && found->second.valence != vertex.valence;
+                  const Asked* asked = askedAt(vertex.place);
+                  return asked != nullptr && asked->valence != vertex.valence;
                 }),
       all.end());
-    for (const auto& [point, asked] : asked_)
+    for (const Asked& asked : asked_)
     {
-      if (asked.valence != kRegularValence && list_.valenceAt(point) != asked.valence)
+      if (asked.valence != kRegularValence && valenceInList(asked) != asked.valence)
       {
-        all.push_back({ point, surface_.points[point], asked.valence });
+        all.push_back({ asked.place, asked.valence });
       }
     }
     std::sort(all.begin(), all.end(),
-      [](const IrregularVertex& a, const IrregularVertex& b) { return a.point < b.point; });
+      [](const IrregularVertex& a, const IrregularVertex& b)
+      { return PlaceOrder()(a.place, b.place); });
   }
 
-  /// The vertices that operations lead to, at their places; and on features, where nothing else is asked of the
-  /// irregular vertices. A half of the surface has a boundary of its own, so that with a symmetry points have to do.
+  /// The vertices on features, where nothing else is asked of the irregular vertices. A half of the surface has a
+  /// boundary of its own, so that with a symmetry they are free.
   void hold(bool onFeatures)
   {
     SurfaceInput& input = composed_.input;
     if (composed_.symmetry)
     {
       return;
-    }
-    for (const IrregularVertex& vertex : composed_.irregular)
-    {
-      if (asked_.count(vertex.point) == 0 && vertex.place != surface_.points[vertex.point])
-      {
-        input.held.push_back({ vertex.point, vertex.place, {} });
-      }
     }
     if (onFeatures)
     {
@@ -369,24 +376,24 @@ private:
       PlacedPart& placed = composed_.parts[i];
       for (std::size_t k = 0; edit && placed.whyNot.empty() && k < edit->changes.size(); ++k)
       {
-        const Index point = edit->changes[k].point;
-        if (list_.changedBy(point) == constraints_[i]->id)
+        const Vector3& place = edit->changes[k].place;
+        if (list_.changedBy(place) == constraints_[i]->id)
         {
-          placed.valences.emplace_back(point, list_.valenceAt(point));
+          placed.valences.emplace_back(place, list_.valenceAt(place));
         }
       }
     }
   }
 
   const SurfaceInput& surface_;
-  const SurfacePlaces& places_;
+  const PlacesOfSession& where_;
   LinePlacements& lines_;
   const SessionConstraints& constraints_;
   bool holdFeatures_;
   std::size_t at_ = 0;
   ComposedInput composed_;
-  std::map<Index, Asked> asked_;
-  std::map<Index, std::size_t> guideOf_, sizeOf_; ///< the constraint that counts
+  std::vector<Asked> asked_; ///< those of the surface first
+  std::size_t ofSurface_ = 0;
   IrregularList list_;
 };
 
@@ -394,37 +401,45 @@ private:
 
 const LinePlacements::Placed& LinePlacements::of(
   const std::shared_ptr<const SessionConstraint>& constraint, const SurfaceInput& surface,
-  const SurfacePlaces& places)
+  const PlacesOfSession& where)
 {
   const auto found = known_.find(constraint);
   if (found != known_.end())
   {
     return found->second;
   }
-  ConstraintPlacement placement(surface, places);
+  ConstraintPlacement placement(surface, where.places, where.paths, where.sameWithin);
   if (const auto* stroke = std::get_if<GuideStroke>(&constraint->content))
   {
     placement.addStroke({ constraint->id, stroke->points }, stroke->weight, stroke->radius);
   }
+  else if (const auto* line = std::get_if<FeatureLine>(&constraint->content))
+  {
+    placement.addFeature({ constraint->id, line->points });
+  }
+  else if (const auto* cycle = std::get_if<Cycle>(&constraint->content))
+  {
+    placement.addCurve(constraint->id, CurveKind::Cycle, cycle->points);
+  }
   else
   {
-    const auto& line = std::get<FeatureLine>(constraint->content);
-    placement.addFeature({ constraint->id, line.points });
+    placement.addCurve(
+      constraint->id, CurveKind::Connection, std::get<Connection>(constraint->content).points);
   }
   const PlacedConstraints& result = placement.result();
   if (known_.size() >= kMostPlacements)
   {
     known_.clear();
   }
-  return known_[constraint] = { result.placed.front(), result.notices, placement.guideMarks(),
-    placement.featureMarks() };
+  return known_[constraint] = { result.placed.front(), result.notices, placement.requests(),
+    placement.curves() };
 }
 
-ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
+ComposedInput composeInput(const SurfaceInput& surface, const PlacesOfSession& where,
   LinePlacements& lines, const SessionConstraints& constraints,
   const std::map<int, std::string>& leftOut, bool holdFeatures)
 {
-  return Composition(surface, places, lines, constraints, holdFeatures).run(leftOut);
+  return Composition(surface, where, lines, constraints, holdFeatures).run(leftOut);
 }
 
 } // namespace quadrille

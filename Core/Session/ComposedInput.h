@@ -3,7 +3,7 @@
 /// All constraints of a session, put on its surface.
 #pragma once
 
-#include "Requests/DrawnConstraints.h"
+#include "Prepare/ConstraintPlacement.h"
 #include "Session/Constraints.h"
 
 #include <map>
@@ -23,15 +23,11 @@ struct PlacedPart
 {
   std::string whyNot;              ///< empty, or why it is left out
   Vector3 place = Vector3::Zero(); ///< on the surface
-  std::vector<Vector3> path;       ///< of a feature
-  std::vector<GuidedPolygon> guided;
-  std::vector<Index> points;        ///< of the input, whose size it asks for
+  std::vector<Vector3> path;       ///< of lines: the course on the surface
+  std::vector<GuidedPlace> guided;
   std::optional<std::size_t> curve; ///< of connections and cycles: in the input's curves
-  /// Of an irregular operation: points and their valences, but for those that a later operation has changed again.
-  std::vector<std::pair<Index, int>> valences;
-  /// Elements (polygons, points) on which later constraints count in its place, by the id of one of these.
-  std::size_t overruled = 0;
-  int overruledBy = 0;
+  /// Of an irregular operation: places and their valences, but for those that a later operation has changed again.
+  std::vector<std::pair<Vector3, int>> valences;
 };
 
 struct ComposedInput
@@ -40,8 +36,8 @@ struct ComposedInput
   /// The constraint that asks for a symmetry, its place in `parts`; none: the quads have not to be symmetric.
   std::optional<std::size_t> symmetry;
   std::vector<PlacedPart> parts; ///< in the order of the constraints
-  /// Irregular vertices that operations and valences lead to, ascending by point, and the last operation in force, its
-  /// id.
+  /// Irregular vertices that operations and valences lead to, in the order of places, and the last operation in force,
+  /// its id.
   std::vector<IrregularVertex> irregular;
   int lastOperation = 0; ///< 0: none
   /// Vertices on features and boundaries that these should leave as they are all, and why that was not possible. None
@@ -49,6 +45,14 @@ struct ComposedInput
   std::optional<std::vector<HeldVertex>> onFeatures;
   std::string whyNotHeld;
   std::vector<std::string> notices; ///< what the user should know
+};
+
+/// To put constraints on a surface.
+struct PlacesOfSession
+{
+  const SurfacePlaces& places;
+  const SurfacePaths& paths;
+  double sameWithin = 0; ///< places that are no farther apart are one
 };
 
 /// Where drawn lines lie on the surface, which depends on nothing else.
@@ -59,13 +63,13 @@ public:
   {
     PlacedConstraint line;
     std::vector<std::string> notices;
-    std::vector<GuideMark> guides;
-    std::vector<FeatureMark> features;
+    DrawnRequests requests;
+    std::vector<CurveRequest> curves;
   };
 
-  /// Of a feature or a stroke.
+  /// Of a feature, a stroke, a connection or a cycle.
   const Placed& of(const std::shared_ptr<const SessionConstraint>& constraint,
-    const SurfaceInput& surface, const SurfacePlaces& places);
+    const SurfaceInput& surface, const PlacesOfSession& where);
 
 private:
   std::map<std::shared_ptr<const SessionConstraint>, Placed> known_;
@@ -74,7 +78,7 @@ private:
 /// leftOut: ids of constraints that are not put on, and why. Constraints that contradict an earlier one, or the
 /// surface, are left out as well. holdFeatures: whether irregular operations leave features and boundaries as they
 /// were.
-ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
+ComposedInput composeInput(const SurfaceInput& surface, const PlacesOfSession& where,
   LinePlacements& lines, const SessionConstraints& constraints,
   const std::map<int, std::string>& leftOut, bool holdFeatures);
 

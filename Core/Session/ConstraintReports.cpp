@@ -4,14 +4,14 @@
 
 #include "Base/PlaceText.h"
 #include "Evaluation/ConstraintMeasures.h"
-#include "Evaluation/LinesInQuads.h"
 #include "Session/IrregularMatch.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
-#include <sstream>
+#include <memory>
 
 namespace quadrille
 {
@@ -21,26 +21,46 @@ namespace
 /// Edge lengths within which a vertex is the one that was meant.
 constexpr double kReachOfOperation = 2;
 
+/// Places at most at which it is looked whether a later constraint counts.
+constexpr std::size_t kPlacesOfOthers = 400;
+
+bool asksForSize(const ConstraintContent& content)
+{
+  return std::holds_alternative<SizeAt>(content) || std::holds_alternative<SizeRegion>(content);
+}
+
 class SessionJudge
 {
 public:
-  SessionJudge(const SurfaceInput& surface, const SessionConstraints& constraints,
-    const ComposedInput& composed, const RemeshResult& made, const SessionResult& result,
-    const SymmetricResult* symmetric)
-    : surface_(surface), constraints_(constraints), composed_(composed), made_(made),
-      irregular_(result.irregular), onFeatures_(result.onFeatures), symmetric_(symmetric),
-      measures_(made.quads),
-      mostPlaces_(mostPlacesOf(static_cast<std::size_t>(std::count_if(composed.parts.begin(),
-        composed.parts.end(), [](const PlacedPart& part) { return !part.guided.empty(); }))))
+  SessionJudge(const SurfaceInput& surface, const SurfacePlaces& places,
+    const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
+    const SessionResult& result, const SymmetricResult* symmetric, bool isOfNumber)
+    : surface_(surface), places_(places), constraints_(constraints), composed_(composed),
+      quads_(made.quads), curves_(made.curves), irregular_(result.irregular),
+      onFeatures_(result.onFeatures), targetEdgeLength_(made.targetEdgeLength),
+      madeEdgeLength_(made.targetEdgeLength), symmetric_(symmetric), measures_(made.quads)
   {
+    if (isOfNumber && !quads_.quads.empty())
+    {
+      madeEdgeLength_ *= std::sqrt(
+        static_cast<double>(result.targetQuads) / static_cast<double>(quads_.quads.size()));
+    }
+    std::size_t guides = 0;
+    for (const PlacedPart& part : composed.parts)
+    {
+      guides += part.guided.empty() ? 0 : 1;
+    }
+    mostPlaces_ = mostPlacesOf(guides);
   }
 
   std::vector<ConstraintReport> run()
   {
     std::vector<ConstraintReport> words;
-    for (at_ = 0; at_ < constraints_.size(); ++at_)
+    for (std::size_t i = 0; i < constraints_.size(); ++i)
     {
-      const SessionConstraint& constraint = *constraints_[at_];
+      part_ = &composed_.parts[i];
+      at_ = i;
+      const SessionConstraint& constraint = *constraints_[i];
       const ConstraintMeasure measure = measureOf(constraint);
       const std::string off = measures_.offSurface(pointsOf(constraint.content));
       words.push_back({ constraint.id, kindOf(constraint.content), constraint.name(), measure.place,
@@ -50,34 +70,18 @@ public:
     return words;
   }
 
-  ConstraintMeasure operator()(const FeatureLine&)
-  {
-    std::vector<std::array<Vector3, 2>> edges;
-    for (std::size_t k = 0; k + 1 < part().path.size(); ++k)
-    {
-      edges.push_back({ part().path[k], part().path[k + 1] });
-    }
-    return measures_.curve(edges);
-  }
+  ConstraintMeasure operator()(const FeatureLine&) { return measures_.curve(part_->path); }
   ConstraintMeasure operator()(const GuideStroke& stroke) { return guide(stroke.weight); }
   ConstraintMeasure operator()(const GuideRegion& region) { return guide(region.weight); }
   ConstraintMeasure operator()(const ValenceAt& at)
   {
-    return measures_.valence(part().place, at.valence);
+    return measures_.valence(part_->place, at.valence);
   }
-  ConstraintMeasure operator()(const SizeAt& at) { return size(at.factor); }
-  ConstraintMeasure operator()(const SizeRegion& region) { return size(region.factor); }
+  ConstraintMeasure operator()(const SizeAt& at);
+  ConstraintMeasure operator()(const SizeRegion& region);
   ConstraintMeasure operator()(const IrregularEdit&) { return irregularEdit(); }
-  ConstraintMeasure operator()(const Connection& connection)
-  {
-    return line(ConstraintKind::Connection, connection.points);
-  }
-  ConstraintMeasure operator()(const Cycle& cycle)
-  {
-    std::vector<Vector3> closed = cycle.points;
-    closed.push_back(closed.front());
-    return line(ConstraintKind::Cycle, std::move(closed));
-  }
+  ConstraintMeasure operator()(const Connection&) { return line(ConstraintKind::Connection); }
+  ConstraintMeasure operator()(const Cycle&) { return line(ConstraintKind::Cycle); }
   ConstraintMeasure operator()(const MirrorSymmetry&)
   {
     return judgeSymmetry("the two sides of the surface are not alike, see the notices: give "
@@ -92,40 +96,33 @@ public:
 private:
   ConstraintMeasure judgeSymmetry(const char* unlike) const;
   ConstraintMeasure irregularEdit();
-  Vector3 placeOfPoint(Index point) const;
-  int valenceNear(const Vector3& place, int asked);
   std::vector<Vector3> otherChanges();
+  std::string whoCounts(const std::vector<WeightedPlace>& places, bool isSize);
+  using Cover = std::function<bool(const Vector3&)>;
+  Cover coverOf(std::size_t i);
   const IrregularMatch& irregularMatch();
 
   ConstraintMeasure measureOf(const SessionConstraint& constraint)
   {
-    if (!part().whyNot.empty())
+    if (!part_->whyNot.empty())
     {
-      return ConstraintMeasure::unknown(part().place, "", part().whyNot);
+      return ConstraintMeasure::unknown(part_->place, "", part_->whyNot);
     }
-    if (made_.quads.quads.empty())
+    if (quads_.quads.empty())
     {
-      return ConstraintMeasure::unknown(part().place, "", "no quads were made");
+      return ConstraintMeasure::unknown(part_->place, "", "no quads were made");
     }
-    ConstraintMeasure measure = std::visit(*this, constraint.content);
-    if (!measure.isMet && part().overruled > 0)
-    {
-      std::ostringstream text;
-      text << "; on " << part().overruled << " of its places constraint " << part().overruledBy
-           << ", which is later, counts";
-      measure.reason += text.str();
-    }
-    return measure;
+    return std::visit(*this, constraint.content);
   }
 
   ConstraintMeasure guide(double weight)
   {
-    if (part().guided.empty())
+    if (part_->guided.empty())
     {
-      return ConstraintMeasure::unknown(part().place, "degrees", "it runs over no face");
+      return ConstraintMeasure::unknown(part_->place, "degrees", "it runs over no face");
     }
     double irregularShare = 0;
-    ConstraintMeasure measure = measures_.guide(part().guided, mostPlaces_, &irregularShare);
+    ConstraintMeasure measure = measures_.guide(part_->guided, mostPlaces_, &irregularShare);
     constexpr double kNotableShare = 0.1;
     if (!measure.isMet && irregularShare > kNotableShare)
     {
@@ -137,121 +134,88 @@ private:
       measure.reason +=
         "; its weight is " + shortText(weight) + ", a larger one is followed more closely";
     }
+    if (!measure.isMet)
+    {
+      std::vector<WeightedPlace> places;
+      for (const GuidedPlace& guided : part_->guided)
+      {
+        places.push_back({ guided.place, guided.area });
+      }
+      measure.reason += whoCounts(places, false);
+    }
     return measure;
   }
 
-  const PlacedPart& part() const { return composed_.parts[at_]; }
-  bool isLastOperation(std::size_t i) const
-  {
-    return constraints_[i]->id == composed_.lastOperation;
-  }
-
-  ConstraintMeasure size(double factor);
-
-  ConstraintMeasure line(ConstraintKind kind, std::vector<Vector3> path);
+  ConstraintMeasure line(ConstraintKind kind);
 
   const SurfaceInput& surface_;
+  const SurfacePlaces& places_;
   const SessionConstraints& constraints_;
   const ComposedInput& composed_;
-  const RemeshResult& made_;
+  const QuadMesh& quads_;
+  const std::vector<CurveOutcome>& curves_;
   const std::vector<IrregularVertex>& irregular_;
   const std::vector<HeldVertex>& onFeatures_;
+  double targetEdgeLength_;
+  double madeEdgeLength_;            ///< of quads of size 1, by how many there are
   const SymmetricResult* symmetric_; ///< null: the quads were not made so
   ConstraintMeasures measures_;
-  std::size_t mostPlaces_;
-  std::optional<IrregularMatch> match_; ///< and this
-  std::optional<LinesInQuads> lines_;   ///< made when they are needed first
-  std::size_t at_ = 0;                  ///< the constraint
+  std::optional<IrregularMatch> match_; ///< made when it is needed first
+  std::size_t mostPlaces_ = 0;
+  const PlacedPart* part_ = nullptr;
+  std::size_t at_ = 0; ///< of the constraint
 };
 
 /// The vertices that it changed last have their valences in the quads; and of the last operation: all others are
-/// where they were. deviation counts those that have not, or are not.
+/// where they were. The deviation is that of the vertices.
 ConstraintMeasure SessionJudge::irregularEdit()
 {
   ConstraintMeasure measure;
-  measure.place = part().place;
-  measure.unit = "valence";
+  measure.place = part_->place;
+  measure.unit = "edge lengths";
   measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
-  std::size_t wrong = 0;
-  for (const auto& [point, asked] : part().valences)
+  measure.isMet = true;
+  for (const auto& [place, asked] : part_->valences)
   {
-    const Vector3 place = placeOfPoint(point);
-    const int got = valenceNear(place, asked);
-    if (got != asked)
+    const ConstraintMeasure there = measures_.valence(place, asked);
+    const bool isFarther = !(there.deviation <= measure.deviation); // or there is none
+    if (isFarther || (measure.isMet && !there.isMet))
     {
       measure.place = place;
-      measure.reason = "asked " + std::to_string(asked) + ", got " + std::to_string(got);
-      ++wrong;
+      measure.deviation = isFarther ? there.deviation : measure.deviation;
     }
+    measure.reason = there.isMet ? measure.reason : there.reason;
+    measure.isMet = measure.isMet && there.isMet;
   }
-  if (wrong > 0 && symmetric_ != nullptr && !symmetric_->rotation &&
+  if (!measure.isMet && symmetric_ != nullptr && !symmetric_->rotation &&
     symmetric_->plane.height(measure.place) < 0)
   {
     measure.reason += "; with a symmetry the operations in front of the mirror plane count: make "
                       "it at the mirror image";
   }
-  if (isLastOperation(at_) && symmetric_ == nullptr && composed_.input.regularElsewhere)
+  if (constraints_[at_]->id == composed_.lastOperation && symmetric_ == nullptr &&
+    composed_.input.regularElsewhere)
   {
     const std::vector<Vector3> others = otherChanges();
     if (!others.empty())
     {
-      measure.place = wrong > 0 ? measure.place : others.front();
-      measure.reason += (wrong > 0 ? "; " : "") + std::to_string(others.size()) +
+      measure.place = measure.isMet ? others.front() : measure.place;
+      measure.reason += (measure.isMet ? "" : "; ") + std::to_string(others.size()) +
         " other irregular vertices are not as they were, one at " + placeText(others.front()) +
         (composed_.whyNotHeld.empty()
             ? ": choose places with more room between features and other irregular vertices"
             : ", as those on features and boundaries could not be held: " + composed_.whyNotHeld);
-      wrong += others.size();
+      measure.isMet = false;
     }
   }
-  measure.deviation = static_cast<double>(wrong);
-  measure.isMet = wrong == 0;
   return measure;
-}
-
-/// Where the vertex is that operations have put at a point of the input.
-Vector3 SessionJudge::placeOfPoint(Index point) const
-{
-  const auto found = std::lower_bound(composed_.irregular.begin(), composed_.irregular.end(), point,
-    [](const IrregularVertex& vertex, Index p) { return vertex.point < p; });
-  return found != composed_.irregular.end() && found->point == point ? found->place
-                                                                     : surface_.points[point];
-}
-
-/// Of the irregular vertex there, in the map and in the quads; regular where there is none. Another size of quads moves
-/// a vertex that lies in a triangle of the input to another place in it.
-int SessionJudge::valenceNear(const Vector3& place, int asked)
-{
-  const IrregularMatch& match = irregularMatch();
-  const IrregularVertex* best = nullptr;
-  for (std::size_t i = 0; i < composed_.irregular.size(); ++i)
-  {
-    if (match.actual[i] && composed_.irregular[i].place == place)
-    {
-      best = &irregular_[*match.actual[i]];
-    }
-  }
-  if (best)
-  {
-    return measures_.valence(best->place, asked).isMet ? best->valence : kRegularValence;
-  }
-  for (const std::size_t k : match.unexpected)
-  {
-    const double distance = (irregular_[k].place - place).norm();
-    if (distance <= kReachOfOperation * made_.targetEdgeLength &&
-      (!best || distance < (best->place - place).norm()))
-    {
-      best = &irregular_[k];
-    }
-  }
-  return best ? best->valence : kRegularValence;
 }
 
 /// Places where irregular vertices came, went or moved though no constraint asks for it.
 std::vector<Vector3> SessionJudge::otherChanges()
 {
   const IrregularMatch& match = irregularMatch();
-  const double reach = kReachOfOperation * made_.targetEdgeLength;
+  const double reach = kReachOfOperation * targetEdgeLength_;
   const auto isNear = [&](const std::vector<Vector3>& all, const Vector3& p, double distance)
   {
     return std::any_of(
@@ -264,16 +228,16 @@ std::vector<Vector3> SessionJudge::otherChanges()
   for (std::size_t i = 0; i < constraints_.size(); ++i)
   {
     const PlacedPart& part = composed_.parts[i];
-    isLater = isLater || isLastOperation(i);
-    if (isLater) // a feature has ends, and corners with others
+    isLater = isLater || constraints_[i]->id == composed_.lastOperation;
+    // A feature has ends, and corners with others.
+    if (isLater && std::holds_alternative<FeatureLine>(constraints_[i]->content))
     {
       drawn.insert(drawn.end(), part.path.begin(), part.path.end());
     }
-    for (const auto& [point, valence] : part.valences)
+    for (const auto& [place, valence] : part.valences)
     {
-      const Vector3 place = placeOfPoint(point);
       told.push_back(place);
-      if (valenceNear(place, valence) != valence)
+      if (!measures_.valence(place, valence).isMet)
       {
         failed.push_back(place);
       }
@@ -317,8 +281,7 @@ const IrregularMatch& SessionJudge::irregularMatch()
 {
   if (!match_)
   {
-    match_ =
-      matchIrregular(composed_.irregular, irregular_, kReachOfOperation * made_.targetEdgeLength);
+    match_ = matchIrregular(composed_.irregular, irregular_, kReachOfOperation * targetEdgeLength_);
   }
   return *match_;
 }
@@ -329,7 +292,7 @@ ConstraintMeasure SessionJudge::judgeSymmetry(const char* unlike) const
 {
   if (symmetric_ == nullptr)
   {
-    return ConstraintMeasure::unknown(part().place, "diagonals", "the quads are not symmetric");
+    return ConstraintMeasure::unknown(part_->place, "diagonals", "the quads are not symmetric");
   }
   ConstraintMeasure measure;
   measure.place = symmetric_->deviation.place;
@@ -341,94 +304,147 @@ ConstraintMeasure SessionJudge::judgeSymmetry(const char* unlike) const
   return measure;
 }
 
-/// Met where there is a straight chain of edges; how far it runs from what was drawn is told.
-ConstraintMeasure SessionJudge::line(ConstraintKind kind, std::vector<Vector3> path)
+ConstraintMeasure SessionJudge::line(ConstraintKind kind)
 {
-  if (!part().curve || *part().curve >= made_.curves.size())
-  {
-    return ConstraintMeasure::unknown(
-      part().place, "edge lengths", "the method has no connections and cycles: choose another one");
-  }
-  if (!lines_)
-  {
-    lines_.emplace(made_.quads);
-  }
-  const CurveOutcome& outcome = made_.curves[*part().curve];
   PlacedConstraint placed;
   placed.kind = kind;
-  placed.curve = *part().curve;
-  placed.path = std::move(path);
-  const std::vector<Vector3> chain = lines_->chainOf(placed, outcome);
-  if (chain.empty())
+  placed.curve = *part_->curve;
+  placed.path = part_->path;
+  return measures_.line(placed, curves_);
+}
+
+ConstraintMeasure SessionJudge::operator()(const SizeAt& at)
+{
+  std::vector<Index> quads;
+  ConstraintMeasure measure =
+    measures_.size(part_->place, at.radius, { at.factor, madeEdgeLength_ }, &quads);
+  if (!measure.isMet)
   {
-    return ConstraintMeasure::unknown(part().place, "edge lengths",
-      outcome.why.empty() ? "the quads have no straight chain of edges there" : outcome.why);
+    std::vector<WeightedPlace> places;
+    const std::size_t stride = strideOf(quads.size(), mostPlacesOf(1));
+    for (std::size_t i = 0; i < quads.size(); i += stride)
+    {
+      places.push_back({ measures_.centreOf(quads[i]), 1 });
+    }
+    measure.reason += whoCounts(places, true);
   }
-  const auto [distance, place] = farthestFrom(placed.path, chain);
-  ConstraintMeasure measure;
-  measure.place = place;
-  measure.unit = "edge lengths";
-  measure.deviation = distance / lines_->edgeLength();
-  measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
-  measure.isMet = true;
   return measure;
 }
 
-/// By which factor the edge lengths at the places, from the areas of the quads there, differ from those asked for.
-ConstraintMeasure SessionJudge::size(double factor)
+/// At places spread over the polygons, about one a quad.
+ConstraintMeasure SessionJudge::operator()(const SizeRegion& region)
 {
-  const NearestQuads nearest(made_.quads);
-  const auto lengthOf = [this](Index q)
+  constexpr double kMostSteps = 16; // along a triangle's side
+  std::vector<WeightedPlace> places;
+  for (const Index polygon : region.polygons)
   {
-    const std::array<Index, 4>& quad = made_.quads.quads[q];
-    return std::sqrt(0.5 *
-      (made_.quads.points[quad[2]] - made_.quads.points[quad[0]])
-        .cross(made_.quads.points[quad[3]] - made_.quads.points[quad[1]])
-        .norm());
-  };
-  ConstraintMeasure measure =
-    ConstraintMeasure::unknown(part().place, "factor", "the quads near it have no area");
-  std::vector<WeightedDeviation> logarithms;
-  double worst = -1;
-  const std::size_t stride = strideOf(part().points.size(), mostPlacesOf(1));
-  for (std::size_t i = 0; i < part().points.size(); i += stride)
-  {
-    const Vector3& p = surface_.points[part().points[i]];
-    const auto there = nearest.at(p);
-    const double length = there ? lengthOf(there->quad) : 0;
-    if (length > 0)
+    const Index first = surface_.polygonOffsets[polygon];
+    for (Index k = first + 2; k < surface_.polygonOffsets[polygon + 1]; ++k)
     {
-      const double off = std::abs(std::log(length / (factor * made_.targetEdgeLength)));
-      logarithms.push_back({ off, 1 });
-      if (off > worst)
+      const Vector3& a = surface_.points[surface_.polygonPoints[first]];
+      const Vector3 u = surface_.points[surface_.polygonPoints[k - 1]] - a;
+      const Vector3 v = surface_.points[surface_.polygonPoints[k]] - a;
+      const double longest = std::max({ u.norm(), v.norm(), (v - u).norm() });
+      const double wanted = longest / (region.factor * madeEdgeLength_);
+      const int steps = static_cast<int>(std::ceil(std::clamp(wanted, 1.0, kMostSteps)));
+      const double area = 0.5 * u.cross(v).norm() / (steps * steps);
+      for (int i = 0; i < steps; ++i)
       {
-        worst = off;
-        measure.place = p;
+        for (int j = 0; i + j < steps; ++j)
+        {
+          // Of the small triangles the one at this corner, and the one beyond.
+          places.push_back({ a + (i + 1 / 3.0) / steps * u + (j + 1 / 3.0) / steps * v, area });
+          if (i + j + 1 < steps)
+          {
+            places.push_back({ a + (i + 2 / 3.0) / steps * u + (j + 2 / 3.0) / steps * v, area });
+          }
+        }
       }
     }
   }
-  if (logarithms.empty())
+  ConstraintMeasure measure = measures_.size(places, { region.factor, madeEdgeLength_ });
+  if (!measure.isMet)
   {
-    return measure;
+    measure.reason += whoCounts(places, true);
   }
-  measure.deviation = std::exp(meanOf(logarithms));
-  measure.deviation95 = std::exp(percentile95(std::move(logarithms)));
-  measure.isMet = measure.deviation <= kMetFactor;
-  measure.reason = measure.isMet
-    ? ""
-    : "the sizes of the quads differ from those asked for by a factor of " +
-      shortText(measure.deviation) + " on average, at most " + shortText(kMetFactor) +
-      " counts as met; sizes change only gradually from one place to the next";
   return measure;
+}
+
+/// Whether a guide, or a size, asks for something at a place; null for all others, and where it is left out.
+SessionJudge::Cover SessionJudge::coverOf(std::size_t i)
+{
+  const PlacedPart& part = composed_.parts[i];
+  const ConstraintContent& content = constraints_[i]->content;
+  const auto isIn = [this](const std::vector<Index>& polygons) -> Cover
+  {
+    return [this, &polygons](const Vector3& place)
+    {
+      const Index polygon = places_.nearestPlace(place).polygon;
+      return std::find(polygons.begin(), polygons.end(), polygon) != polygons.end();
+    };
+  };
+  if (!part.whyNot.empty())
+  {
+    return nullptr;
+  }
+  if (const auto* region = std::get_if<GuideRegion>(&content))
+  {
+    return isIn(region->polygons);
+  }
+  if (const auto* region = std::get_if<SizeRegion>(&content))
+  {
+    return isIn(region->polygons);
+  }
+  if (const auto* size = std::get_if<SizeAt>(&content))
+  {
+    return [&part, size](const Vector3& place)
+    { return (place - part.place).norm() <= size->radius; };
+  }
+  if (const auto* stroke = std::get_if<GuideStroke>(&content))
+  {
+    const auto segments = std::make_shared<NearestSegments>(part.path);
+    return [this, segments, stroke](const Vector3& place)
+    { return measures_.isUnder(*segments, stroke->radius, place); };
+  }
+  return nullptr;
+}
+
+/// On which share of the places a later constraint counts in place of this one.
+std::string SessionJudge::whoCounts(const std::vector<WeightedPlace>& places, bool isSize)
+{
+  const std::size_t stride = strideOf(places.size(), kPlacesOfOthers);
+  for (std::size_t later = constraints_.size(); later-- > at_ + 1;)
+  {
+    const Cover covers =
+      isSize == asksForSize(constraints_[later]->content) ? coverOf(later) : nullptr;
+    if (!covers)
+    {
+      continue;
+    }
+    double under = 0, all = 0;
+    for (std::size_t i = 0; i < places.size(); i += stride)
+    {
+      all += places[i].weight;
+      under += covers(places[i].place) ? places[i].weight : 0;
+    }
+    if (under > 0)
+    {
+      return "; on " + percentText(under / all) + " of it " + constraints_[later]->name() +
+        ", which is later, counts";
+    }
+  }
+  return {};
 }
 
 } // namespace
 
 std::vector<ConstraintReport> reportConstraints(const SurfaceInput& surface,
-  const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
-  const SessionResult& result, const SymmetricResult* symmetric)
+  const SurfacePlaces& places, const SessionConstraints& constraints, const ComposedInput& composed,
+  const RemeshResult& made, const SessionResult& result, const SymmetricResult* symmetric,
+  bool isOfNumber)
 {
-  return SessionJudge(surface, constraints, composed, made, result, symmetric).run();
+  return SessionJudge(surface, places, constraints, composed, made, result, symmetric, isOfNumber)
+    .run();
 }
 
 } // namespace quadrille

@@ -12,10 +12,12 @@
 namespace quadrille
 {
 
-/// made: for the composed input; without quads where there are none. result: irregular
-/// vertices, also those on features, are those that were made.
+/// made: for the composed input; without quads where there are none. result: irregular vertices, also those on
+/// features, are those that were made. isOfNumber: a number of quads was asked for, so that sizes count against the
+/// number that there is.
 std::vector<ConstraintReport> reportConstraints(const SurfaceInput& surface,
-  const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
-  const SessionResult& result, const SymmetricResult* symmetric);
+  const SurfacePlaces& places, const SessionConstraints& constraints, const ComposedInput& composed,
+  const RemeshResult& made, const SessionResult& result, const SymmetricResult* symmetric,
+  bool isOfNumber);
 
 } // namespace quadrille

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// What a user can ask of a surface in a session. All places are in units of the input; a place means the nearest point
-/// of the input that a polygon uses, unless it says otherwise.
+/// of the surface, wherever its vertices are.
 #pragma once
 
 #include "Base/Types.h"
@@ -9,6 +9,7 @@
 #include "Requests/HeldVertices.h"
 #include "Symmetry/Isometry.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <variant>
@@ -49,7 +50,7 @@ struct ValenceAt
 struct SizeAt
 {
   Vector3 point = Vector3::Zero();
-  double radius = 0; ///< >= 0: points of the input so near; 0: the nearest one
+  double radius = 0; ///< >= 0: within this straight distance; 0: at the point
   double factor = 1; ///< > 0: the edge length there as a multiple of the target edge length
 };
 
@@ -60,16 +61,24 @@ struct SizeRegion
   double factor = 1; ///< see SizeAt
 };
 
-/// An irregular vertex inside of the surface, off its features.
+/// The order of places by which lists are sorted: by x, then y, then z.
+struct PlaceOrder
+{
+  bool operator()(const Vector3& a, const Vector3& b) const
+  {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  }
+};
+
+/// An irregular vertex inside of the surface, off its features. Its place names it.
 struct IrregularVertex
 {
-  Index point = kInvalidIndex; ///< of the input, the nearest one: the vertex's id
   Vector3 place = Vector3::Zero();
   int valence = 4;
 
   bool operator==(const IrregularVertex& other) const
   {
-    return point == other.point && place == other.place && valence == other.valence;
+    return place == other.place && valence == other.valence;
   }
 };
 
@@ -94,7 +103,7 @@ struct IrregularEdit
   /// What the session makes of it when it is added, from the irregular vertices that there are then.
   struct Change
   {
-    Index point = kInvalidIndex;
+    Vector3 place = Vector3::Zero();
     int before = 4, after = 4; ///< valences
   };
   /// An operation that was in force then: its id, how often it had been changed, and what it did, so that it can be
@@ -109,8 +118,8 @@ struct IrregularEdit
       return id == other.id && revision == other.revision;
     }
   };
-  std::vector<IrregularVertex> before; ///< all of them, ascending by point
-  std::vector<Change> changes;         ///< ascending by point
+  std::vector<IrregularVertex> before; ///< all of them, in the order of places
+  std::vector<Change> changes;         ///< the same
   std::vector<Link> upon;              ///< in their order
   /// Ends, corners and bends of features and boundaries then, ascending by point.
   std::vector<HeldVertex> onFeatures = {};

@@ -5,11 +5,12 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
-#include "Requests/Guides.h"
+#include "Mesh/Distance.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -18,31 +19,26 @@ namespace quadrille
 namespace
 {
 
-/// Points of the input round a corner of the surface, the nearest one first.
-std::array<Index, 3> pointsNearCorner(const PreparedSurface& surface, Index h)
+/// Of the points of the input round a corner of the surface the nearest one.
+Index pointNearCorner(const PreparedSurface& surface, Index h)
 {
   const Index f = Mesh::face(h);
-  std::array<Index, 3> order{ h % 3, (h + 1) % 3, (h + 2) % 3 };
+  Index corner = h % 3;
   if (!surface.refinedEntry.empty() && surface.refinedEntry[f] != kInvalidIndex)
   {
     const std::array<double, 3>& weights = surface.cornerWeights[surface.refinedEntry[f]][h % 3];
-    order = { 0, 1, 2 };
-    std::stable_sort(
-      order.begin(), order.end(), [&](Index a, Index b) { return weights[a] > weights[b]; });
+    corner = static_cast<Index>(std::max_element(weights.begin(), weights.end()) - weights.begin());
   }
-  return { surface.sourcePoints[f][order[0]], surface.sourcePoints[f][order[1]],
-    surface.sourcePoints[f][order[2]] };
+  return surface.sourcePoints[f][corner];
 }
 
 /// One operation, being applied.
 class EditResolution
 {
 public:
-  EditResolution(IrregularEdit& edit, const std::string& name, const SurfaceInput& surface,
-    const SurfacePlaces& places, const std::vector<IrregularVertex>& irregular,
-    const std::vector<Index>& fixedPoints)
-    : edit_(edit), name_(name), surface_(surface), places_(places), irregular_(irregular),
-      fixedPoints_(fixedPoints)
+  EditResolution(IrregularEdit& edit, const std::string& name, const PlacesOfEdits& where,
+    const std::vector<IrregularVertex>& irregular)
+    : edit_(edit), name_(name), where_(where), irregular_(irregular)
   {
   }
 
@@ -92,7 +88,7 @@ private:
   {
     const IrregularVertex& first = vertexNear(0);
     const IrregularVertex& second = vertexNear(1);
-    if (first.point == second.point)
+    if (first.place == second.place)
     {
       refuse(name_, " needs two irregular vertices, but the one nearest to both of its places is ",
         "that of valence ", first.valence, " at ", placeText(first.place),
@@ -100,48 +96,55 @@ private:
     }
     return { first, second };
   }
-  Index pointNear(std::size_t i) const
+  /// Where an irregular vertex is already, that one.
+  Vector3 placeNear(std::size_t i) const
   {
-    const Index point = places_.nearestCorner(edit_.points[i]);
-    if (std::binary_search(fixedPoints_.begin(), fixedPoints_.end(), point))
+    const Vector3 place = where_.places.nearestPlace(edit_.points[i]).point;
+    for (const IrregularVertex& vertex : irregular_)
     {
-      refuse(name_, " would put an irregular vertex on a feature or boundary, at ",
-        placeText(surface_.points[point]), ": choose a place inside");
+      if ((vertex.place - place).norm() <= where_.sameWithin)
+      {
+        return vertex.place;
+      }
     }
-    return point;
+    for (const auto& [a, b] : where_.fixedEdges)
+    {
+      if (distanceToSegment(place, a, b) <= where_.sameWithin)
+      {
+        refuse(name_, " would put an irregular vertex on a feature or boundary, at ",
+          placeText(place), ": choose a place inside");
+      }
+    }
+    return place;
   }
-  void add(Index point, int index) { indices_[point] += index; }
+  void add(const Vector3& place, int index) { indices_[place] += index; }
 
   void move()
   {
     const IrregularVertex from = vertexNear(0);
-    const Index to = pointNear(1);
-    if (to == from.point)
+    const Vector3 to = placeNear(1);
+    if (to == from.place)
     {
       refuse(name_, ": the irregular vertex of valence ", from.valence, " is at ",
         placeText(from.place), " already");
     }
-    add(from.point, -indexOf(from));
+    add(from.place, -indexOf(from));
     add(to, indexOf(from));
   }
 
   void split()
   {
     const IrregularVertex at = vertexNear(0);
-    const Index first = pointNear(1);
-    const Index second = pointNear(2);
+    const Vector3 first = placeNear(1);
+    const Vector3 second = placeNear(2);
     const int index = indexOf(at);
     if (edit_.valences.empty() && index % 2 != 0)
     {
       refuse(name_, ": the irregular vertex at ", placeText(at.place), " has valence ", at.valence,
         ", which has no half: give two valences with the sum ", kRegularValence + at.valence);
     }
-    if (first == second)
-    {
-      refuse(
-        name_, ": both places have the same nearest point, ", placeText(surface_.points[first]));
-    }
-    add(at.point, -index);
+    requireTwo(first, second);
+    add(at.place, -index);
     add(first, edit_.valences.empty() ? index / 2 : kRegularValence - edit_.valences[0]);
     add(second, edit_.valences.empty() ? index / 2 : kRegularValence - edit_.valences[1]);
   }
@@ -154,30 +157,34 @@ private:
       refuse(name_, ": valences ", first.valence, " and ", second.valence,
         " would make a regular vertex: cancel the pair instead");
     }
-    const Index to = edit_.points.size() > 2 ? pointNear(2) : first.point;
-    add(first.point, -indexOf(first));
-    add(second.point, -indexOf(second));
+    const Vector3 to = edit_.points.size() > 2 ? placeNear(2) : first.place;
+    add(first.place, -indexOf(first));
+    add(second.place, -indexOf(second));
     add(to, indexOf(first) + indexOf(second));
   }
 
   void cancel()
   {
     const auto [first, second] = twoVertices();
-    add(first.point, -indexOf(first));
-    add(second.point, -indexOf(second));
+    add(first.place, -indexOf(first));
+    add(second.place, -indexOf(second));
   }
 
   void addPair()
   {
-    const Index first = pointNear(0);
-    const Index second = pointNear(1);
-    if (first == second)
-    {
-      refuse(
-        name_, ": both places have the same nearest point, ", placeText(surface_.points[first]));
-    }
+    const Vector3 first = placeNear(0);
+    const Vector3 second = placeNear(1);
+    requireTwo(first, second);
     add(first, edit_.valences.empty() ? 1 : kRegularValence - edit_.valences[0]);
     add(second, edit_.valences.empty() ? -1 : kRegularValence - edit_.valences[1]);
+  }
+
+  void requireTwo(const Vector3& first, const Vector3& second) const
+  {
+    if ((first - second).norm() <= where_.sameWithin)
+    {
+      refuse(name_, ": both places are the same on the surface, ", placeText(first));
+    }
   }
 
   void takeChanges()
@@ -189,22 +196,21 @@ private:
       refuse(name_, " would change the sum of indices (4 - valence) by ", off,
         ", but the surface's shape sets it: choose valences that add up");
     }
-    for (const auto& [point, index] : indices_)
+    for (const auto& [place, index] : indices_)
     {
-      const Index at = point;
+      const Vector3 at = place;
       const auto found = std::find_if(irregular_.begin(), irregular_.end(),
-        [at](const IrregularVertex& vertex) { return vertex.point == at; });
+        [&at](const IrregularVertex& vertex) { return vertex.place == at; });
       const int before = found == irregular_.end() ? kRegularValence : found->valence;
       const int after = before - index;
       if (after < kLeastValence || after > kMostValence)
       {
-        refuse(name_, " would make a vertex of valence ", after, " at ",
-          placeText(surface_.points[point]), ", but only ", kLeastValence, " to ", kMostValence,
-          " are possible");
+        refuse(name_, " would make a vertex of valence ", after, " at ", placeText(place),
+          ", but only ", kLeastValence, " to ", kMostValence, " are possible");
       }
       if (after != before)
       {
-        edit_.changes.push_back({ point, before, after });
+        edit_.changes.push_back({ place, before, after });
       }
     }
     if (edit_.changes.empty())
@@ -215,26 +221,24 @@ private:
 
   IrregularEdit& edit_;
   const std::string& name_;
-  const SurfaceInput& surface_;
-  const SurfacePlaces& places_;
+  const PlacesOfEdits& where_;
   const std::vector<IrregularVertex>& irregular_;
-  const std::vector<Index>& fixedPoints_;
-  std::map<Index, int> indices_; ///< by how much they grow
+  std::map<Vector3, int, PlaceOrder> indices_; ///< by how much they grow
 };
 
 } // namespace
 
-OnCurves findOnCurves(const PreparedSurface& surface, int threads)
+OnCurves findOnCurves(const MadeSurface& made, int threads)
 {
   constexpr std::size_t kEditChunk = 3 << 15;
-  const Mesh& mesh = surface.mesh;
+  const Mesh& mesh = made.surface.mesh;
   std::vector<std::vector<Index>> constrained((mesh.halfEdgeCount() + kEditChunk - 1) / kEditChunk);
   parallelFor(mesh.halfEdgeCount(), kEditChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (Index h = static_cast<Index>(begin); h < end; ++h)
       {
-        if (mesh.isConstrained(h))
+        if (mesh.isConstrained(h) && (mesh.isBoundary(h) || h < mesh.twin[h]))
         {
           constrained[begin / kEditChunk].push_back(h);
         }
@@ -247,31 +251,15 @@ OnCurves findOnCurves(const PreparedSurface& surface, int threads)
     for (const Index h : part)
     {
       on.vertices[mesh.origin[h]] = on.vertices[mesh.target(h)] = 1;
+      on.edges.push_back({ made.placeAt(h), made.placeAt(Mesh::next(h)) });
     }
   }
-  std::vector<std::vector<Index>> points(constrained.size());
-  parallelFor(mesh.halfEdgeCount(), kEditChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (Index h = static_cast<Index>(begin); h < end; ++h)
-      {
-        if (on.vertices[mesh.origin[h]] != 0)
-        {
-          points[begin / kEditChunk].push_back(pointsNearCorner(surface, h)[0]);
-        }
-      }
-    });
-  for (const std::vector<Index>& part : points)
-  {
-    on.points.insert(on.points.end(), part.begin(), part.end());
-  }
-  std::sort(on.points.begin(), on.points.end());
-  on.points.erase(std::unique(on.points.begin(), on.points.end()), on.points.end());
   return on;
 }
 
-std::vector<IrregularVertex> irregularVertices(
-  const MadeSurface& made, const std::vector<int>& turns, const OnCurves& onCurves)
+std::vector<IrregularVertex> irregularVertices(const MadeSurface& made,
+  const std::vector<int>& turns, const OnCurves& onCurves, const std::vector<ValencePlace>& asked,
+  double takenWithin)
 {
   const Mesh& mesh = made.surface.mesh;
   std::vector<IrregularVertex> irregular;
@@ -282,7 +270,6 @@ std::vector<IrregularVertex> irregularVertices(
     isOpen[v] = onCurves.vertices[v] == 0 && turns[v] != kRegularValence;
     open += isOpen[v];
   }
-  std::map<Index, IrregularVertex> byPoint;
   for (Index h = 0; open > 0 && h < mesh.halfEdgeCount(); ++h)
   {
     const Index v = mesh.origin[h];
@@ -292,25 +279,23 @@ std::vector<IrregularVertex> irregularVertices(
     }
     isOpen[v] = 0;
     --open;
-    const std::array<Index, 3> near = pointsNearCorner(made.surface, h);
-    const auto free =
-      std::find_if(near.begin(), near.end(), [&](Index p) { return byPoint.count(p) == 0; });
-    if (free != near.end())
+    IrregularVertex vertex{ made.placeAt(h), turns[v] };
+    const ValencePlace* nearest = nullptr;
+    for (const ValencePlace& other : asked)
     {
-      byPoint[*free] = { *free, made.placeAt(h), turns[v] };
+      const double distance = (other.place - vertex.place).norm();
+      if (distance <= takenWithin && other.valence == vertex.valence &&
+        (nearest == nullptr || distance < (nearest->place - vertex.place).norm()))
+      {
+        nearest = &other;
+      }
     }
-    else // of three in one triangle of the input: they count as one with the first
-    {
-      byPoint[near[0]].valence += turns[v] - kRegularValence;
-    }
+    vertex.place = nearest == nullptr ? vertex.place : nearest->place;
+    irregular.push_back(vertex);
   }
-  for (const auto& [point, vertex] : byPoint)
-  {
-    if (vertex.valence != kRegularValence)
-    {
-      irregular.push_back(vertex);
-    }
-  }
+  std::sort(irregular.begin(), irregular.end(),
+    [](const IrregularVertex& a, const IrregularVertex& b)
+    { return PlaceOrder()(a.place, b.place); });
   return irregular;
 }
 
@@ -328,68 +313,58 @@ std::vector<HeldVertex> featureVertices(
   for (const SectorRequest& request : onFeatures)
   {
     const Index h = corner[request.vertex];
-    vertices.push_back({ pointsNearCorner(made.surface, h)[0], made.placeAt(h), request.sectors });
+    vertices.push_back({ pointNearCorner(made.surface, h), made.placeAt(h), request.sectors });
   }
   std::stable_sort(vertices.begin(), vertices.end(),
     [](const HeldVertex& a, const HeldVertex& b) { return a.point < b.point; });
   return vertices;
 }
 
-void resolveEdit(IrregularEdit& edit, const std::string& name, const SurfaceInput& surface,
-  const SurfacePlaces& places, const std::vector<IrregularVertex>& irregular,
-  const std::vector<Index>& fixedPoints)
+void resolveEdit(IrregularEdit& edit, const std::string& name, const PlacesOfEdits& where,
+  const std::vector<IrregularVertex>& irregular)
 {
-  EditResolution(edit, name, surface, places, irregular, fixedPoints).run();
+  EditResolution(edit, name, where, irregular).run();
 }
 
 //------------------------------------------------------------------------------
-std::string IrregularList::apply(
-  int id, int revision, const IrregularEdit& edit, const SurfaceInput& surface)
+std::string IrregularList::apply(int id, int revision, const IrregularEdit& edit)
 {
-  std::map<Index, int> valences = valences_;
-  std::map<Index, Vector3> places = places_;
+  std::map<Vector3, int, PlaceOrder> valences = valences_;
   const bool takesOwn = edit.upon == links_ || !isInForce_;
   if (takesOwn)
   {
-    for (auto& [point, valence] : valences)
+    for (auto& [place, valence] : valences)
     {
       valence = kRegularValence; // unless the operation's list has it
     }
-    places.clear();
     for (const IrregularVertex& vertex : edit.before)
     {
-      valences[vertex.point] = vertex.valence;
-      places[vertex.point] = vertex.place;
+      valences[vertex.place] = vertex.valence;
     }
   }
   for (std::size_t i = takesOwn && !(edit.upon == links_) ? edit.upon.size() : 0; i-- > 0;)
   {
     for (const IrregularEdit::Change& change : edit.upon[i].changes)
     {
-      valences[change.point] = change.before;
+      valences[change.place] = change.before;
     }
   }
   for (const IrregularEdit::Change& change : edit.changes)
   {
-    const int there = valences.emplace(change.point, kRegularValence).first->second;
+    const int there = valences.emplace(change.place, kRegularValence).first->second;
     if (there != change.before)
     {
       return "it changes the vertex of valence " + std::to_string(change.before) + " at " +
-        placeText(surface.points[change.point]) + ", but since the operations before it changed, " +
+        placeText(change.place) + ", but since the operations before it changed, " +
         "the valence there is " + std::to_string(there) + ": remove it, or make it anew";
     }
-    valences[change.point] = change.after;
-    if (change.before == kRegularValence || change.after == kRegularValence)
-    {
-      places.erase(change.point);
-    }
+    valences[change.place] = change.after;
   }
   for (const IrregularEdit::Change& change : edit.changes)
   {
-    changedBy_[change.point] = id;
+    changedBy_[change.place] = id;
   }
   valences_ = std::move(valences);
-  places_ = std::move(places);
   if (takesOwn)
   {
     onFeatures_ = edit.onFeatures;
@@ -399,30 +374,44 @@ std::string IrregularList::apply(
   return {};
 }
 
-int IrregularList::valenceAt(Index point) const
+int IrregularList::valenceAt(const Vector3& place) const
 {
-  const auto found = valences_.find(point);
+  const auto found = valences_.find(place);
   return found == valences_.end() ? kRegularValence : found->second;
 }
 
-std::vector<IrregularVertex> IrregularList::irregular(const SurfaceInput& surface) const
+Vector3 IrregularList::sameAs(const Vector3& place, double sameWithin) const
+{
+  Vector3 best = place;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [other, valence] : valences_)
+  {
+    const double distance = (other - place).norm();
+    if (distance <= sameWithin && distance < least)
+    {
+      least = distance;
+      best = other;
+    }
+  }
+  return best;
+}
+
+std::vector<IrregularVertex> IrregularList::irregular() const
 {
   std::vector<IrregularVertex> vertices;
-  for (const auto& [point, valence] : valences_)
+  for (const auto& [place, valence] : valences_)
   {
     if (valence != kRegularValence)
     {
-      const auto found = places_.find(point);
-      vertices.push_back(
-        { point, found == places_.end() ? surface.points[point] : found->second, valence });
+      vertices.push_back({ place, valence });
     }
   }
   return vertices;
 }
 
-int IrregularList::changedBy(Index point) const
+int IrregularList::changedBy(const Vector3& place) const
 {
-  const auto found = changedBy_.find(point);
+  const auto found = changedBy_.find(place);
   return found == changedBy_.end() ? 0 : found->second;
 }
 

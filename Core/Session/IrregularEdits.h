@@ -7,6 +7,7 @@
 #include "Requests/SurfacePlaces.h"
 #include "Session/Constraints.h"
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,30 +29,38 @@ struct MadeSurface
   }
 };
 
-/// The vertices and points of the user's surface that lie on features and boundaries.
+/// What of the surface under the quads lies on features and boundaries.
 struct OnCurves
 {
-  std::vector<std::uint8_t> vertices; ///< #V of the surface under the quads; 1: on one
-  std::vector<Index> points;          ///< of the user's surface, ascending
+  std::vector<std::uint8_t> vertices;        ///< #V; 1: on one
+  std::vector<std::array<Vector3, 2>> edges; ///< each once, where they are on the user's surface
 };
-OnCurves findOnCurves(const PreparedSurface& surface, int threads);
+OnCurves findOnCurves(const MadeSurface& made, int threads);
 
-/// Irregular vertices of a result inside of the surface, off its features, ascending by point of the input. They are
-/// those of the map: the quads have them at the same vertices of the surface, from which smoothing may move them.
-/// turns: RemeshResult::turns.
-std::vector<IrregularVertex> irregularVertices(
-  const MadeSurface& made, const std::vector<int>& turns, const OnCurves& onCurves);
+/// Irregular vertices of a result inside of the surface, off its features, in the order of places. They are those of
+/// the map: the quads have them at the same vertices of the surface, from which smoothing may move them; at those that
+/// were asked for they are. turns: RemeshResult::turns; asked: a vertex within takenWithin of one of these, with its
+/// valence, is that one, and has its place.
+std::vector<IrregularVertex> irregularVertices(const MadeSurface& made,
+  const std::vector<int>& turns, const OnCurves& onCurves, const std::vector<ValencePlace>& asked,
+  double takenWithin);
 /// Ends, corners and bends of features and boundaries, ascending by point of the input. onFeatures: of the
 /// RemeshResult.
 std::vector<HeldVertex> featureVertices(
   const MadeSurface& made, const std::vector<SectorRequest>& onFeatures);
 
-/// Fills before and changes of the operation. fixedPoints: OnCurves::points. Throws InvalidInput, with name and
-/// place, where there is no such vertex, a place cannot be taken, a valence would be out of range, or the sum of
-/// indices would change.
-void resolveEdit(IrregularEdit& edit, const std::string& name, const SurfaceInput& surface,
-  const SurfacePlaces& places, const std::vector<IrregularVertex>& irregular,
-  const std::vector<Index>& fixedPoints);
+/// Where operations may put irregular vertices.
+struct PlacesOfEdits
+{
+  const SurfacePlaces& places;
+  const std::vector<std::array<Vector3, 2>>& fixedEdges; ///< OnCurves::edges
+  double sameWithin = 0; ///< places that are no farther apart are one
+};
+
+/// Fills before and changes of the operation. Throws InvalidInput, with name and place, where there is no such vertex,
+/// a place cannot be taken, a valence would be out of range, or the sum of indices would change.
+void resolveEdit(IrregularEdit& edit, const std::string& name, const PlacesOfEdits& where,
+  const std::vector<IrregularVertex>& irregular);
 
 /// The irregular vertices that operations lead to, one after the other.
 class IrregularList
@@ -61,24 +70,25 @@ public:
   /// Where the operation was made upon those that are in force here, its own list counts; else its changes are made in
   /// the list that there is, or, where none is in force any more, in its own with those before it taken back. Returns
   /// why not, or nothing.
-  std::string apply(int id, int revision, const IrregularEdit& edit, const SurfaceInput& surface);
-  /// Valences by point, also those that an operation has made regular.
-  const std::map<Index, int>& valences() const { return valences_; }
-  int valenceAt(Index point) const;
-  /// Those that are not regular, ascending by point, where they are on the surface.
-  std::vector<IrregularVertex> irregular(const SurfaceInput& surface) const;
+  std::string apply(int id, int revision, const IrregularEdit& edit);
+  /// Valences by place, also those that an operation has made regular.
+  const std::map<Vector3, int, PlaceOrder>& valences() const { return valences_; }
+  int valenceAt(const Vector3& place) const;
+  /// Of the places in the list the nearest one that is the same as this; else it itself.
+  Vector3 sameAs(const Vector3& place, double sameWithin) const;
+  /// Those that are not regular, in the order of places.
+  std::vector<IrregularVertex> irregular() const;
   /// Those on features and boundaries, of the last operation that brought its own list.
   const std::vector<HeldVertex>& onFeatures() const { return onFeatures_; }
-  /// The operation in force that changed the point last; 0: none.
-  int changedBy(Index point) const;
+  /// The operation in force that changed the place last; 0: none.
+  int changedBy(const Vector3& place) const;
   /// The operations in force.
   const std::vector<IrregularEdit::Link>& links() const { return links_; }
 
 private:
   bool isInForce_ = false;
-  std::map<Index, int> valences_;
-  std::map<Index, int> changedBy_;
-  std::map<Index, Vector3> places_; ///< of vertices that are not at their points
+  std::map<Vector3, int, PlaceOrder> valences_;
+  std::map<Vector3, int, PlaceOrder> changedBy_;
   std::vector<HeldVertex> onFeatures_;
   std::vector<IrregularEdit::Link> links_;
 };

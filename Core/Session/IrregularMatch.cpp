@@ -62,7 +62,7 @@ std::vector<IrregularVertex> asVertices(const std::vector<HeldVertex>& held)
     {
       turns += sector.turns;
     }
-    vertices.push_back({ vertex.point, vertex.place, turns });
+    vertices.push_back({ vertex.place, turns });
   }
   return vertices;
 }

@@ -6,7 +6,8 @@
 #include "Base/Refuse.h"
 #include "Mesh/ContentHash.h"
 #include "Numerics/MinCostFlow.h"
-#include "Requests/SurfacePlaces.h"
+#include "Pipeline/SizedSurface.h"
+#include "Prepare/ConstraintPlacement.h"
 #include "Session/IrregularEdits.h"
 #include "Session/SessionData.h"
 #include "Session/SessionJson.h"
@@ -65,32 +66,31 @@ std::vector<std::string> settingDifferences(const RemeshOptions& a, const Remesh
   return differences;
 }
 
-/// The earth mover's distance of the irregular vertices in straight lines. Both lists are ascending by point.
+/// The earth mover's distance of the irregular vertices in straight lines.
 void measureDistance(
   const SessionResult& first, const SessionResult& second, StateComparison::Results& results)
 {
   std::vector<std::pair<Vector3, int>> give,
     take; // quarter turns that are over, and that are missing
-  const auto add = [&](const IrregularVertex& vertex, int index)
+  const auto add = [&](const Vector3& place, int index)
   {
     if (index != 0)
     {
-      (index > 0 ? give : take).push_back({ vertex.place, std::abs(index) });
+      (index > 0 ? give : take).push_back({ place, std::abs(index) });
     }
   };
-  std::map<Index, std::pair<const IrregularVertex*, int>> indices;
+  std::map<Vector3, int, PlaceOrder> indices;
   for (const IrregularVertex& vertex : first.irregular)
   {
-    indices[vertex.point] = { &vertex, 4 - vertex.valence };
+    indices[vertex.place] += kRegularValence - vertex.valence;
   }
   for (const IrregularVertex& vertex : second.irregular)
   {
-    auto& [known, index] = indices.emplace(vertex.point, std::make_pair(&vertex, 0)).first->second;
-    index -= 4 - vertex.valence;
+    indices[vertex.place] -= kRegularValence - vertex.valence;
   }
-  for (const auto& [point, entry] : indices)
+  for (const auto& [place, index] : indices)
   {
-    add(*entry.first, entry.second);
+    add(place, index);
   }
   constexpr std::size_t kMostPairs = 4000000;
   if (give.size() * take.size() > kMostPairs)
@@ -137,7 +137,7 @@ std::size_t SessionResult::bytes() const
   return bytesOf(quads.points) + bytesOf(quads.quads) + bytesOf(quads.sourceFace) +
     bytesOf(quads.sourceWeights) + bytesOf(quads.quadSourceFace) +
     bytesOf(quads.quadSourceWeights) + bytesOf(quads.valence) + bytesOf(quads.onBoundary) +
-    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedPoints) + bytesOf(onFeatures) +
+    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedEdges) + bytesOf(onFeatures) +
     bytesOf(mirrorPoint) + bytesOf(rotatedPoint) + sizeof(*this);
 }
 
@@ -172,20 +172,31 @@ SessionData::SessionData(SurfaceInput input)
   history.push_back(std::make_shared<SessionState>());
 }
 
-const SurfacePlaces& SessionData::places()
+PlacesOfSession SessionData::places(const RemeshOptions& settings)
 {
   if (!places_)
   {
     places_ = std::make_unique<SurfacePlaces>(surface, limits.threads);
+    paths_ = std::make_unique<SurfacePaths>(surface, limits.threads);
+    area_ = areaOfPolygons(surface);
+    diagonal_ = diagonalOf(surface);
   }
-  return *places_;
+  return { *places_, *paths_, kOnePlace * targetEdgeLength(settings, area_, diagonal_) };
 }
 
-std::shared_ptr<const OnCurves> SessionData::onCurvesOf(const PreparedSurface& made)
+void SessionData::keepSurface(std::shared_ptr<const PreparedSurface> made, const Frame& frame)
+{
+  if (paths_)
+  {
+    paths_->use(std::move(made), frame);
+  }
+}
+
+std::shared_ptr<const OnCurves> SessionData::onCurvesOf(const MadeSurface& made)
 {
   return findOrMake<OnCurves>(
-    &store, made.hash, [&] { return findOnCurves(made, limits.threads); },
-    [](const OnCurves& found) { return bytesOf(found.vertices) + bytesOf(found.points); });
+    &store, made.surface.hash, [&] { return findOnCurves(made, limits.threads); },
+    [](const OnCurves& found) { return bytesOf(found.vertices) + bytesOf(found.edges); });
 }
 
 std::shared_ptr<SessionResult> SessionData::resultOf(const SessionState& state)
@@ -240,7 +251,7 @@ std::vector<IrregularEdit::Link> SessionData::linksInForce() const
   {
     if (const auto* edit = std::get_if<IrregularEdit>(&constraint->content))
     {
-      list.apply(constraint->id, constraint->revision, *edit, surface);
+      list.apply(constraint->id, constraint->revision, *edit);
     }
   }
   return list.links();
@@ -354,7 +365,8 @@ int Session::add(ConstraintContent content)
       refuse(name, " needs quads whose irregular vertices it changes, but there are none: ",
         now ? now->report.status.message : "the run was stopped");
     }
-    resolveEdit(*edit, name, data_->surface, data_->places(), now->irregular, now->fixedPoints);
+    const PlacesOfSession where = data_->places(settings());
+    resolveEdit(*edit, name, { where.places, now->fixedEdges, where.sameWithin }, now->irregular);
     edit->upon = data_->linksInForce();
     edit->onFeatures = now->onFeatures;
   }
@@ -380,8 +392,10 @@ void Session::edit(int id, ConstraintContent content)
   {
     const auto& made = std::get<IrregularEdit>(before.content);
     const std::shared_ptr<const SessionResult> now = result();
-    resolveEdit(*edit, before.name(), data_->surface, data_->places(), made.before,
-      now ? now->fixedPoints : std::vector<Index>{});
+    const PlacesOfSession where = data_->places(settings());
+    const std::vector<std::array<Vector3, 2>> none;
+    resolveEdit(*edit, before.name(),
+      { where.places, now ? now->fixedEdges : none, where.sameWithin }, made.before);
     edit->upon = made.upon;
     edit->onFeatures = made.onFeatures;
   }

@@ -7,6 +7,7 @@
 #include "Pipeline/Pipeline.h"
 #include "Session/Constraints.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -31,7 +32,7 @@ struct ConstraintReport
   std::string unit;       ///< "degrees", "edge lengths", "valence", "factor", "diagonals"
   std::string
     reason; ///< why it is not met, and which of its points lies off the surface; empty: neither
-  /// A point that was drawn lies farther than an edge length off the surface; the reason and a notice say which.
+  /// A point that was drawn lies farther than half an edge length off the surface; the reason and a notice say which.
   bool isOffSurface = false;
 };
 
@@ -57,9 +58,10 @@ struct SessionResult
 {
   SessionReport report;
   QuadMesh quads;
-  std::vector<IrregularVertex> irregular; ///< ascending by point
-  std::vector<Index> fixedPoints;         ///< of the input, on features and boundaries; ascending
-  std::vector<HeldVertex> onFeatures;     ///< ends, corners and bends of these, ascending by point
+  std::vector<IrregularVertex> irregular; ///< in the order of places
+  /// Of the surface under the quads, on features and boundaries: what no irregular vertex can be moved to.
+  std::vector<std::array<Vector3, 2>> fixedEdges;
+  std::vector<HeldVertex> onFeatures; ///< ends, corners and bends of these, ascending by point
   double targetEdgeLength = 0;
   std::size_t targetQuads = 0;
   std::vector<Index> mirrorPoint;  ///< per point of symmetric quads: its mirror image; else empty

@@ -52,9 +52,12 @@ struct SessionData
   void enter(std::shared_ptr<SessionState> state);
   /// Empty: the present one.
   SessionState& named(const std::string& name) const;
-  const SurfacePlaces& places();
+  /// For settings of the session. What it refers to lives as long as this.
+  PlacesOfSession places(const RemeshOptions& settings);
+  /// What a run has left of the surface, for the next lines; null: nothing.
+  void keepSurface(std::shared_ptr<const PreparedSurface> made, const Frame& frame);
   /// Of the surface under the quads.
-  std::shared_ptr<const OnCurves> onCurvesOf(const PreparedSurface& made);
+  std::shared_ptr<const OnCurves> onCurvesOf(const MadeSurface& made);
   std::shared_ptr<SessionResult> resultOf(const SessionState& state);
   void keep(const SessionState& state, std::shared_ptr<SessionResult> result);
   /// Irregular operations of the present state that are in force.
@@ -78,7 +81,9 @@ struct SessionData
   } soFar;
 
 private:
-  std::unique_ptr<SurfacePlaces> places_; ///< made when they are needed first
+  std::unique_ptr<SurfacePlaces> places_; ///< these are made when they are needed first
+  std::unique_ptr<SurfacePaths> paths_;
+  double area_ = 0, diagonal_ = 0;
 };
 
 } // namespace quadrille

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -26,7 +27,9 @@ namespace
 {
 
 constexpr const char* kFormat = "quadrille-session";
-constexpr int kSessionVersion = 1;
+/// Version 1 had ids of points in place of places of irregular vertices.
+constexpr int kSessionVersion = 2;
+constexpr int kVersionOfPoints = 1;
 
 std::string hexText(std::uint64_t number)
 {
@@ -74,32 +77,37 @@ void requireOnly(
   }
 }
 
-/// Ids of an irregular operation that the surface has to have.
+/// Numbers of an irregular operation that the surface can have.
 void checkResolved(const IrregularEdit& edit, const std::string& name, std::size_t pointCount)
 {
-  const auto require = [&](Index point, int valence)
+  const auto require = [&](const Vector3& place, int valence)
   {
-    if (point >= pointCount || valence < 2 || valence > 8)
+    if (!place.allFinite() || valence < kLeastValence || valence > kMostValence)
     {
-      refuse(name, " names point ", point, " with valence ", valence, ", but there are ",
-        pointCount, " points and valences from 2 to 8");
+      refuse(name, " has a place with valence ", valence, ", but there are valences from ",
+        kLeastValence, " to ", kMostValence, ", and places have to be finite");
     }
   };
   const auto requireChanges = [&](const std::vector<IrregularEdit::Change>& changes)
   {
     for (const IrregularEdit::Change& change : changes)
     {
-      require(change.point, change.before);
-      require(change.point, change.after);
+      require(change.place, change.before);
+      require(change.place, change.after);
     }
   };
   for (const IrregularVertex& vertex : edit.before)
   {
-    require(vertex.point, std::clamp(vertex.valence, 2, 8)); // the surface may have others
+    // The surface may have others.
+    require(vertex.place, std::clamp(vertex.valence, kLeastValence, kMostValence));
   }
   for (const HeldVertex& vertex : edit.onFeatures)
   {
-    require(vertex.point, 4);
+    if (vertex.point >= pointCount)
+    {
+      refuse(name, " names point ", vertex.point, ", but there are ", pointCount, " points");
+    }
+    require(vertex.place, kRegularValence);
     for (const HeldSector& sector : vertex.sectors)
     {
       if (sector.turns < 1 || !sector.middle.allFinite())
@@ -116,8 +124,66 @@ void checkResolved(const IrregularEdit& edit, const std::string& name, std::size
   }
 }
 
+/// Places in place of the ids of points that a constraint of version 1 has: that of the vertex with the id, or of the
+/// point. What does not fit is left for who reads it.
+void putPlaces(SessionJson& constraint, const SurfaceInput& surface, const std::string& where)
+{
+  if (!constraint.is_object() || !constraint.contains("resolved"))
+  {
+    return;
+  }
+  SessionJson& resolved = constraint["resolved"];
+  std::map<std::size_t, SessionJson> places;
+  const auto idOf = [&](const SessionJson& json)
+  {
+    const std::size_t id =
+      json["point"].is_number_unsigned() ? json["point"].get<std::size_t>() : surface.points.size();
+    if (id >= surface.points.size())
+    {
+      refuse(where, " names point ", json["point"].dump(), ", but there are ",
+        surface.points.size(), " points");
+    }
+    return id;
+  };
+  const auto forEachWithPoint = [](SessionJson& json, const char* key, const auto& act)
+  {
+    if (json.is_object() && json.contains(key) && json[key].is_array())
+    {
+      for (SessionJson& each : json[key])
+      {
+        if (each.is_object() && each.contains("point"))
+        {
+          act(each);
+        }
+      }
+    }
+  };
+  const auto putPlace = [&](SessionJson& change)
+  {
+    const std::size_t id = idOf(change);
+    const auto known = places.find(id);
+    const Vector3& p = surface.points[id];
+    change["place"] = known != places.end() ? known->second : SessionJson{ p.x(), p.y(), p.z() };
+    change.erase("point");
+  };
+  forEachWithPoint(resolved, "before",
+    [&](SessionJson& vertex)
+    {
+      places[idOf(vertex)] = vertex["place"];
+      vertex.erase("point");
+    });
+  forEachWithPoint(resolved, "changes", putPlace);
+  if (resolved.is_object() && resolved.contains("upon") && resolved["upon"].is_array())
+  {
+    for (SessionJson& link : resolved["upon"])
+    {
+      forEachWithPoint(link, "changes", putPlace);
+    }
+  }
+}
+
 SessionState stateFromJson(
-  const SessionJson& json, const SurfaceInput& surface, const std::string& where)
+  const SessionJson& json, int version, const SurfaceInput& surface, const std::string& where)
 {
   SessionState state;
   requireOnly(json, { "settings", "constraints" }, where);
@@ -129,8 +195,12 @@ SessionState stateFromJson(
     refuse("\"constraints\" of ", where, " must be a list");
   }
   std::set<int> ids;
-  for (const SessionJson& each : constraints)
+  for (SessionJson each : constraints)
   {
+    if (version == kVersionOfPoints)
+    {
+      putPlaces(each, surface, where);
+    }
     SessionConstraint constraint = constraintFromJson(each, where);
     const std::string name = constraint.name() + " of " + where;
     checkConstraint(constraint.content, name, surface.polygonOffsets.size() - 1);
@@ -276,16 +346,16 @@ Session Session::load(const std::string& path, SurfaceInput surface)
     refuse(where, " is no file of a session");
   }
   const SessionJson& version = memberOf(json, "version", where);
-  if (version != kSessionVersion)
+  if (version != kSessionVersion && version != kVersionOfPoints)
   {
-    refuse(where, " is of version ", version.dump(), ", but only version ", kSessionVersion,
-      " can be read here");
+    refuse(where, " is of version ", version.dump(), ", but only versions ", kVersionOfPoints,
+      " and ", kSessionVersion, " can be read here");
   }
   requireOnly(json, { "format", "version", "mesh", "next_id", "state", "named_states" }, where);
   auto data = std::make_unique<SessionData>(std::move(surface));
   requireSameMesh(memberOf(json, "mesh", where), data->surface, data->limits.threads, where);
   data->history.front() = std::make_shared<SessionState>(
-    stateFromJson(memberOf(json, "state", where), data->surface, where));
+    stateFromJson(memberOf(json, "state", where), version, data->surface, where));
   const SessionJson& names = memberOf(json, "named_states", where);
   if (!names.is_object())
   {
@@ -304,7 +374,8 @@ Session Session::load(const std::string& path, SurfaceInput surface)
   {
     std::string place = "state '";
     place.append(name).append("' of ").append(where);
-    data->names[name] = std::make_shared<SessionState>(stateFromJson(state, data->surface, place));
+    data->names[name] =
+      std::make_shared<SessionState>(stateFromJson(state, version, data->surface, place));
     countIds(*data->names[name]);
   }
   const SessionJson& next = memberOf(json, "next_id", where);

@@ -114,13 +114,12 @@ ConstraintContent readContent(FieldReader& reader)
 
 constexpr auto kVertexFields = [](auto& fields, auto& vertex)
 {
-  fields.need("point", vertex.point);
   fields.need("place", vertex.place);
   fields.need("valence", vertex.valence);
 };
 constexpr auto kChangeFields = [](auto& fields, auto& change)
 {
-  fields.need("point", change.point);
+  fields.need("place", change.place);
   fields.need("before", change.before);
   fields.need("after", change.after);
 };

@@ -118,15 +118,16 @@ private:
       const MadeSurface surface = made.framed
         ? MadeSurface{ *made.framed, &made.frame, &data_.surface.points }
         : MadeSurface{ made.surface };
-      const auto onCurves = data_.onCurvesOf(surface.surface);
-      result.irregular = irregularVertices(surface, made.turns, *onCurves);
-      result.fixedPoints = onCurves->points;
+      const auto onCurves = data_.onCurvesOf(surface);
+      result.irregular = irregularVertices(surface, made.turns, *onCurves,
+        composed_.input.drawn.valences, kTakenVertex * made.targetEdgeLength);
+      result.fixedEdges = onCurves->edges;
       result.onFeatures = featureVertices(surface, made.onFeatures);
     }
   }
 
   /// result: its irregular vertices and sizes are there.
-  void takeReport(const RemeshResult& made, SessionResult& result) const
+  void takeReport(const RemeshResult& made, SessionResult& result)
   {
     SessionReport& report = result.report;
     report.status = made.status;
@@ -146,8 +147,9 @@ private:
     }
     if (!options_.preview)
     {
-      report.constraints = reportConstraints(data_.surface, state_.constraints, composed_, made,
-        result, composed_.symmetry ? &mirrored_ : nullptr);
+      report.constraints = reportConstraints(data_.surface, data_.places(state_.settings).places,
+        state_.constraints, composed_, made, result, composed_.symmetry ? &mirrored_ : nullptr,
+        options_.quads.has_value());
     }
     for (const ConstraintReport& word : report.constraints)
     {
@@ -174,6 +176,7 @@ private:
       symmetric = runSymmetric(leftOut);
     }
     RemeshResult made = symmetric ? std::move(*symmetric) : runQuads();
+    data_.keepSurface(made.framed, made.frame);
     wasStopped_ = made.status.code == StatusCode::Cancelled || !made.stopped.empty();
     for (const StageRecord& record : made.stages)
     {
@@ -189,11 +192,12 @@ private:
   /// In the mirror plane the half has its boundary, where vertices may become irregular that no operation asks for.
   void tellOtherIrregular(SessionResult& result) const
   {
-    const std::vector<int>& asked = composed_.input.targetValences;
+    const double reach = kTakenVertex * result.targetEdgeLength;
     for (const IrregularVertex& vertex : result.irregular)
     {
-      const int there = vertex.point < asked.size() ? asked[vertex.point] : 0;
-      const int valence = there != 0 ? there : kRegularValence;
+      const auto asked = std::find_if(composed_.irregular.begin(), composed_.irregular.end(),
+        [&](const IrregularVertex& other) { return (other.place - vertex.place).norm() <= reach; });
+      const int valence = asked == composed_.irregular.end() ? kRegularValence : asked->valence;
       if (mirrored_.plane.height(vertex.place) >= -kMirrorTolerance * mirrored_.diagonal &&
         valence != vertex.valence)
       {
@@ -207,8 +211,8 @@ private:
   void compose(std::map<int, std::string> leftOut)
   {
     leftOut.insert(refused_.begin(), refused_.end());
-    composed_ = composeInput(
-      data_.surface, data_.places(), data_.lines, state_.constraints, leftOut, whyNotHeld_.empty());
+    composed_ = composeInput(data_.surface, data_.places(state_.settings), data_.lines,
+      state_.constraints, leftOut, whyNotHeld_.empty());
     composed_.whyNotHeld = whyNotHeld_;
   }
 

@@ -59,24 +59,6 @@ std::string togetherText(const std::vector<Block*>& blocks, const PartContacts& 
 }
 
 //------------------------------------------------------------------------------
-double areaOfPolygons(const SurfaceInput& input)
-{
-  double area = 0;
-  for (std::size_t i = 0; i + 1 < input.polygonOffsets.size(); ++i)
-  {
-    const Index first = input.polygonOffsets[i];
-    const Vector3& a = input.points[input.polygonPoints[first]];
-    for (Index k = first + 2; k < input.polygonOffsets[i + 1]; ++k)
-    {
-      area += 0.5 *
-        (input.points[input.polygonPoints[k - 1]] - a)
-          .cross(input.points[input.polygonPoints[k]] - a)
-          .norm();
-    }
-  }
-  return area;
-}
-
 //------------------------------------------------------------------------------
 std::string withoutQuadsText(
   const std::vector<Block*>& blocks, const std::vector<std::size_t>& withoutQuads)

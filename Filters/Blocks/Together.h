@@ -25,9 +25,6 @@ bool isFarFrom(std::size_t target, Block& block);
 /// Of conforming blocks, at the first one.
 std::string togetherText(const std::vector<Block*>& blocks, const PartContacts& contacts);
 
-/// Of the polygons, each in triangles from its first corner.
-double areaOfPolygons(const SurfaceInput& input);
-
 /// Blocks that are narrower than a quad, where no quads follow their borders.
 std::string withoutQuadsText(
   const std::vector<Block*>& blocks, const std::vector<std::size_t>& withoutQuads);

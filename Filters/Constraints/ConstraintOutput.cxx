@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/NewArray.h"
 #include "Constraints/Constraints.h"
-#include "Evaluation/LinesInQuads.h"
-#include "Evaluation/QuadPlaces.h"
+#include "Evaluation/ConstraintMeasures.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -41,12 +40,6 @@ bool asksForValence(const PlacedConstraint& constraint)
   return constraint.kind == ConstraintKind::Valence || constraint.kind == ConstraintKind::Move;
 }
 
-/// The search for them is worth its time only then.
-bool asksForValences(const std::vector<PlacedConstraint>& placed)
-{
-  return std::any_of(placed.begin(), placed.end(), asksForValence);
-}
-
 /// Where it is shown as a vertex; nowhere if it is a line.
 std::optional<Vector3> vertexOf(const PlacedConstraint& constraint)
 {
@@ -77,7 +70,7 @@ vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint
   vtkNew<vtkCellArray> verts;
   vtkNew<vtkCellArray> lines;
   const QuadMesh none;
-  const ReachedValences reached(asksForValences(placed) ? mesh : none);
+  ConstraintMeasures measures(mesh);
   const LinesInQuads chains(std::any_of(placed.begin(), placed.end(), isLine) ? mesh : none);
   const auto add = [&](std::size_t i, const std::vector<Vector3>& path, vtkCellArray* cells)
   {
@@ -97,7 +90,8 @@ vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint
     distance->InsertNextValue(constraint.distance);
     weight->InsertNextValue(constraint.weight);
     asked->InsertNextValue(constraint.valence);
-    valence->InsertNextValue(asksForValence(constraint) ? reached.at(path.front()) : 0);
+    valence->InsertNextValue(
+      asksForValence(constraint) ? measures.valenceShown(path.front(), constraint.valence) : 0);
   };
   // Vertices come before lines in the order of cells.
   for (std::size_t i = 0; i < placed.size(); ++i)

@@ -5,8 +5,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "Convert/ArrayNames.h"
-#include "Requests/CurveRequests.h"
-#include "Requests/Guides.h"
+#include "Prepare/ConstraintPlacement.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -294,8 +293,9 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   {
     return unused;
   }
-  const SurfacePlaces places(surface.input);
-  ConstraintPlacement placement(surface.input, places);
+  const SurfacePlaces places(surface.input, inputs.threads);
+  const SurfacePaths paths(surface.input, inputs.threads);
+  ConstraintPlacement placement(surface.input, places, paths, inputs.sameWithin);
   if (hasLines(inputs.curves))
   {
     addCurves(inputs.curves, inputs, placement);
@@ -319,12 +319,7 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
     addPoints(inputs.mixed, valenceOfMixed(inputs.mixed, inputs.valence), placement);
     addConnections(inputs.mixed, "the constraints", placement);
   }
-  surface.curveMarks = placement.featureMarks();
-  const std::size_t polygons = surface.input.polygonOffsets.size() - 1;
-  addFeatureMarks(surface.input, polygons, surface.curveMarks);
-  addGuideMarks(surface.input, polygons, placement.guideMarks());
-  placement.setValences(surface.input);
-  placement.addCurves(surface.input);
+  placement.addTo(surface.input);
   PlacedConstraints result = placement.result();
   addMoves(inputs.curves, result);
   addMoves(inputs.mixed, result);

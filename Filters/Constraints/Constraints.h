@@ -38,26 +38,23 @@ struct ConstraintInputs
   vtkPolyData* mixed = nullptr;
   vtkPolyData* surface = nullptr; ///< for its array ConnectId
   double strokeWeight = 1;        ///< in (0, 1]
-  /// Polygons whose centre is within this distance of a stroke take its direction, too; >= 0, in units of the surface.
+  /// What lies within this distance of a stroke takes its direction, too; >= 0, in units of the surface.
   double strokeRadius = 0;
-  int valence = 3; ///< 2 to 8
+  int valence = 3;       ///< 2 to 8
+  double sameWithin = 0; ///< places that are no farther apart are one, see kOnePlace
+  int threads = 1;       ///< 0: all
 };
 
-/// Features: every point of a curve goes to the nearest point of the surface's polygons, and between two of them runs
-/// the path along edges that stays closest to the straight segment; its edges are marked in surface.curveMarks and
-/// surface.input.featureEdges.
-/// Strokes: every point goes to the nearest place on the surface, and the polygons under the straight segment between
-/// two get its direction. Where the way there is torn, that of a feature is taken.
-/// Valences: the nearest place on the surface, and of the corners of the polygon there the nearest one.
-/// Connections and cycles: as they are, in surface.input.curves; also pairs of points of the surface that share a value
-/// of its point array ConnectId.
+/// All goes to surface.input.drawn, see ConstraintPlacement: every point goes to the nearest place on the surface,
+/// wherever its vertices are. Connections and cycles stay as they are, in surface.input.curves; also pairs of points of
+/// the surface that share a value of its point array ConnectId.
 /// Moves: as they are, see Filters/Constraints/Moves.h.
 /// Throws InvalidInput, with the place, for values that cannot be asked for and for a curve that cannot be followed.
 PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintInputs& inputs);
 
 /// Lines and vertices where the constraints lie. Cells: Met (active: 0 or 1), Constraint (0 feature, 1 stroke, 2 a
 /// valence that was met, 3 one that was not), SourceId (line or point of its input), Distance, GuidingWeight (0 but on
-/// strokes), TargetValence (0 on lines) and Valence (that of the quads there, on boundaries one more; 0 on lines).
+/// strokes), TargetValence (0 on lines) and Valence (of the quads' point there, on boundaries one more; 0 on lines).
 /// Points: Direction (unit vectors along lines, else zero). Connections and cycles are 4 and 6, drawn as the chain of
 /// edges that they became; 5 and 7 where there is none, as they were given. Moves of irregular vertices are 8, the
 /// vertex at its new place, and 9, where they begin; 10 is the mirror plane, see addMirrorLines. Lines

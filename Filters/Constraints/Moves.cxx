@@ -3,8 +3,6 @@
 #include "Constraints/Moves.h"
 
 #include "Base/Error.h"
-#include "Requests/Guides.h"
-#include "Requests/SurfacePlaces.h"
 #include "Session/ComposedInput.h"
 #include "Session/IrregularEdits.h"
 
@@ -30,29 +28,26 @@ bool isForOtherReasons(const Status& status)
   return status.ok() || status.code == StatusCode::Cancelled || status.code == StatusCode::TooLarge;
 }
 
-/// The list of irregular vertices as an operation leaves it; ascending by point.
-void change(std::vector<IrregularVertex>& irregular,
-  const std::vector<IrregularEdit::Change>& changes, const SurfaceInput& surface)
+/// The list of irregular vertices as an operation leaves it; in the order of places.
+void change(
+  std::vector<IrregularVertex>& irregular, const std::vector<IrregularEdit::Change>& changes)
 {
-  std::map<Index, IrregularVertex> byPoint;
+  std::map<Vector3, int, PlaceOrder> valences;
   for (const IrregularVertex& vertex : irregular)
   {
-    byPoint[vertex.point] = vertex;
+    valences[vertex.place] = vertex.valence;
   }
   for (const IrregularEdit::Change& made : changes)
   {
-    const IrregularVertex isNew{ made.point, surface.points[made.point], kRegularValence };
-    const auto found = byPoint.emplace(made.point, isNew).first;
-    found->second.valence = made.after;
-    if (made.after == kRegularValence)
-    {
-      byPoint.erase(found);
-    }
+    valences[made.place] = made.after;
   }
   irregular.clear();
-  for (const auto& [point, vertex] : byPoint)
+  for (const auto& [place, valence] : valences)
   {
-    irregular.push_back(vertex);
+    if (valence != kRegularValence)
+    {
+      irregular.push_back({ place, valence });
+    }
   }
 }
 
@@ -60,14 +55,15 @@ void change(std::vector<IrregularVertex>& irregular,
 class MoveList
 {
 public:
-  MoveList(const SurfaceInput& surface, const SurfacePlaces& places, const RemeshResult& without,
+  MoveList(const SurfaceInput& surface, const PlacesOfSession& where, const RemeshResult& without,
     int threads)
-    : surface_(surface), places_(places)
+    : where_(where)
   {
-    const OnCurves onCurves = findOnCurves(without.surface, threads);
     const MadeSurface made{ without.surface };
-    irregular_ = irregularVertices(made, without.turns, onCurves);
-    fixedPoints_ = onCurves.points;
+    const OnCurves onCurves = findOnCurves(made, threads);
+    irregular_ = irregularVertices(made, without.turns, onCurves, surface.drawn.valences,
+      kTakenVertex * without.targetEdgeLength);
+    fixedEdges_ = onCurves.edges;
     onFeatures_ = featureVertices(made, without.onFeatures);
   }
 
@@ -79,8 +75,8 @@ public:
     edit.points = move.path;
     try
     {
-      resolveEdit(
-        edit, "move " + std::to_string(move.source), surface_, places_, irregular_, fixedPoints_);
+      resolveEdit(edit, "move " + std::to_string(move.source),
+        { where_.places, fixedEdges_, where_.sameWithin }, irregular_);
     }
     catch (const InvalidInput& error)
     {
@@ -90,17 +86,15 @@ public:
     // Of the two changes that to a regular vertex is at the begin, but where it comes to another irregular vertex.
     const Vector3 from = nearest(move.path[0]).place;
     move.valence = nearest(move.path[0]).valence;
-    const Index to = places_.nearestCorner(move.path[1]);
-    move.distance = (move.path[1] - surface_.points[to]).norm();
-    move.path = { from, surface_.points[to] };
+    Vector3 to = where_.places.nearestPlace(move.path[1]).point;
+    move.distance = (move.path[1] - to).norm();
     edit.upon = list_.links();
     edit.onFeatures = onFeatures_;
-    list_.apply(id, 0, edit, surface_);
-    change(irregular_, edit.changes, surface_);
-    for (const IrregularVertex& vertex : irregular_)
-    {
-      move.valence = vertex.point == to ? vertex.valence : move.valence;
-    }
+    list_.apply(id, 0, edit);
+    change(irregular_, edit.changes);
+    to = list_.sameAs(to, where_.sameWithin);
+    move.path = { from, to };
+    move.valence = list_.valenceAt(to);
     auto constraint = std::make_shared<SessionConstraint>();
     constraint->id = id;
     constraint->content = std::move(edit);
@@ -117,10 +111,9 @@ private:
       { return (a.place - place).squaredNorm() < (b.place - place).squaredNorm(); });
   }
 
-  const SurfaceInput& surface_;
-  const SurfacePlaces& places_;
+  const PlacesOfSession& where_;
   std::vector<IrregularVertex> irregular_;
-  std::vector<Index> fixedPoints_;
+  std::vector<std::array<Vector3, 2>> fixedEdges_;
   std::vector<HeldVertex> onFeatures_;
   IrregularList list_;
   SessionConstraints constraints_;
@@ -163,7 +156,9 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
     return made;
   }
   const SurfacePlaces places(input, options.threads);
-  MoveList list(input, places, made.remeshed, options.threads);
+  const SurfacePaths paths(input, options.threads);
+  const PlacesOfSession where{ places, paths, kOnePlace * made.remeshed.targetEdgeLength };
+  MoveList list(input, where, made.remeshed, options.threads);
   for (std::size_t i = 0; i < placed.size(); ++i)
   {
     if (isMove(placed[i]))
@@ -177,7 +172,7 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
   while (true)
   {
     ComposedInput composed =
-      composeInput(input, places, lines, list.constraints(), leftOut, holdsFeatures);
+      composeInput(input, where, lines, list.constraints(), leftOut, holdsFeatures);
     const bool isHeld = composed.input.regularOnFeatures;
     composed.input.points = input.points;
     composed.input.polygonOffsets = input.polygonOffsets;

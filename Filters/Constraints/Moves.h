@@ -22,8 +22,8 @@ bool asksForMoves(const std::vector<PlacedConstraint>& placed);
 /// it at the end instead; all other irregular vertices stay where they are. The moves are done in their order, each in
 /// what those before it have left. Those that cannot be met, together with what else is asked for, are left out, the
 /// last one first.
-/// placed: of its moves the path becomes the vertex's old place and its new one, the point of the input nearest to what
-/// was drawn, and they get the vertex's valence; or whyNot. notices: what the user should know.
+/// placed: of its moves the path becomes the vertex's old place and its new one, the place of the surface nearest to
+/// what was drawn, and they get the vertex's valence; or whyNot. notices: what the user should know.
 SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
   const RemeshRun& run, std::vector<PlacedConstraint>& placed, std::vector<std::string>& notices);
 

@@ -15,7 +15,6 @@
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/Surface.h"
-#include "Requests/DrawnConstraints.h"
 
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
@@ -78,10 +77,9 @@ struct ConvertedSurface
   vtkIdType firstCell = 0;              ///< cell id of polygon 0
   std::vector<vtkIdType> cellOfPolygon; ///< only where the surface has strips
   std::vector<std::array<Index, 3>>
-    stripTriangles;                    ///< corners of the polygons that come from strips
-  std::size_t ignoredCells = 0;        ///< vertices and lines
-  std::string patchArray;              ///< name of the cell array that patchIds came from, or empty
-  std::vector<FeatureMark> curveMarks; ///< what the curves of the second input added
+    stripTriangles;             ///< corners of the polygons that come from strips
+  std::size_t ignoredCells = 0; ///< vertices and lines
+  std::string patchArray;       ///< name of the cell array that patchIds came from, or empty
 
   vtkIdType cell(Index polygon) const
   {

@@ -124,7 +124,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     feature_edges: n by 2 point ids, the ends of edges of the mesh; or #F numbers, of which bit i marks the edge from
         corner i to i + 1.
     patch_ids: #F whole numbers; edges between two values become edges of the quads.
-    curves: a list of polylines (n by 3 points each), drawn along the nearest edges of the mesh, that become features;
+    curves: a list of polylines (n by 3 points each) that become features, straight over the faces of the mesh;
         or a vtkPolyData with lines and, if some are no features, the cell array ConstraintType (0 feature, 1 stroke,
         2 connection, 3 cycle).
     strokes: a list of polylines along which quads should run.
@@ -168,7 +168,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     guide: what quads follow where guiding_direction and strokes are not given: "curvature", or the name of an array of
         three numbers on cells or points of a vtkPolyData.
     guide_anisotropy: with guide="curvature", where |k1 - k2| / (|k1| + |k2|) is above this, over about an edge length.
-    stroke_radius: polygons within this distance of a stroke take its direction; 0: those that it runs over.
+    stroke_radius: what lies within this distance of a stroke takes its direction; 0: only what it runs over.
     symmetry: "found", or the mirror plane as (origin, normal), three numbers each: quads that are their own mirror
         image. The half where the normal points to is remeshed; the point array MirrorPoint of the result has the id of
         each point's image. Where the mesh is only nearly symmetric, points of the other half are put onto it.

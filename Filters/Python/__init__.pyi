@@ -52,7 +52,6 @@ class Remeshed(NamedTuple):
     separatrices: Any
 
 class Irregular(NamedTuple):
-    id: NDArray[numpy.int64]
     point: NDArray[numpy.float64]
     valence: NDArray[Any]
 

@@ -289,10 +289,10 @@ def session_point_array(data, name):
 
 
 def session_irregular(session):
-    """Ids, points and valences."""
+    """Points and valences."""
     data = session.GetIrregularVertices()
     return tuple(vtk_to_numpy(array).copy() for array in (
-        data.GetPointData().GetArray("PointId"), data.GetPoints().GetData(), data.GetPointData().GetArray("Valence")))
+        data.GetPoints().GetData(), data.GetPointData().GetArray("Valence")))
 
 
 # --- files ------------------------------------------------------------------------------------------------------------

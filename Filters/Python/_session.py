@@ -14,8 +14,8 @@ from ._backend import backend
 from ._errors import InvalidInput, RemeshError, one_of, real, whole
 from ._inputs import as_surface, with_requests
 
-#: Irregular vertices: ids (points of the surface), points (n by 3) and valences.
-Irregular = collections.namedtuple("Irregular", "id point valence")
+#: Irregular vertices: points (n by 3), which name them, and valences.
+Irregular = collections.namedtuple("Irregular", "point valence")
 
 #: Settings that go on as they are, by the names of remesh().
 _PLAIN = ("feature_criterion", "method", "integers", "small_details", "small_components",
@@ -74,9 +74,9 @@ class Session:
         session.update()                # makes nothing, the quads are there
 
     Methods that ask for something return an id, which never changes: for edit(), remove() and the report. A place is
-    three numbers, or the id of a point of the mesh; it means the nearest point of the mesh that a face uses. Quads
-    depend on mesh, settings and constraints only: the same set from nothing makes the same bytes, unless warm_start is
-    on.
+    three numbers, or the id of a point of the mesh; it means the nearest point of the surface, wherever the mesh has
+    its points. Quads depend on mesh, settings and constraints only: the same set from nothing makes the same bytes,
+    unless warm_start is on.
     """
 
     def __init__(self, mesh, *, quads=None, edge_length=None, relative_edge_length=None, guiding_direction=None,
@@ -149,8 +149,8 @@ class Session:
     # What can be asked for. With edit=id it takes the place of what has that id.
 
     def add_guide(self, points=None, weight=1.0, radius=0.0, *, faces=None, direction=None, edit=None):
-        """Quads run along a polyline (n by 3), and along it in the faces within the radius; or in faces, along a
-        direction. The weight is above 0 and at most 1. Where guides overlap the last one counts."""
+        """Quads run along a polyline (n by 3), and beside it within the radius; or in faces, along a direction.
+        The weight is above 0 and at most 1. Where guides overlap the last one counts."""
         if (points is None) == (faces is None) or (faces is None) != (direction is None):
             raise InvalidInput("a guide needs points, or faces and a direction")
         if faces is not None:
@@ -160,7 +160,7 @@ class Session:
                           "radius": real("radius", radius)}, edit)
 
     def add_feature(self, points, *, edit=None):
-        """A polyline becomes edges of the quads, along the nearest edges of the mesh."""
+        """A polyline becomes edges of the quads, straight over the faces of the mesh."""
         return self._add({"kind": "feature", "points": self._line("points", points)}, edit)
 
     def set_valence(self, point, valence, *, edit=None):
@@ -169,7 +169,7 @@ class Session:
                           "valence": whole("valence", valence, least=0)}, edit)
 
     def set_size(self, point=None, factor=1.0, radius=0.0, *, faces=None, edit=None):
-        """Edges are factor times as long at the points within the radius of a place, or at the corners of faces."""
+        """Edges are factor times as long within the radius of a place, or at the corners of faces."""
         if (point is None) == (faces is None):
             raise InvalidInput("a size needs a point, or faces")
         if faces is not None:
@@ -297,7 +297,7 @@ class Session:
         return backend.session_point_array(self.polydata, "RotatedPoint")
 
     def irregular(self):
-        """Irregular vertices inside of the surface, off its features: ids, points, valences; see quads."""
+        """Irregular vertices inside of the surface, off its features: points and valences; see quads."""
         self.update()
         return Irregular(*backend.session_irregular(self._session))
 

@@ -25,7 +25,8 @@ struct SurfaceRecipe
   /// surface's frame.
   double edgeLength = 0;
   std::string patchArray;
-  std::vector<FeatureMark> curveMarks;
+  /// What was drawn that changes the triangles, in units of the user. Strokes are guides of the levels.
+  DrawnRequests drawn;
 };
 
 /// Field arrays DecimationLog, SurfaceHash, and the recipe.

@@ -4,6 +4,7 @@
 
 #include "Convert/PolyData.h"
 #include "Mesh/ContentHash.h"
+#include "Pipeline/ResultStore.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -99,6 +100,27 @@ private:
 };
 
 } // namespace
+
+std::uint64_t drawnHash(DrawnRequests drawn)
+{
+  drawn.strokes.clear(); // guides of the levels
+  KeyMaker key;
+  for (const FeatureRequest& feature : drawn.features)
+  {
+    key.add(std::uint64_t{ feature.points.size() });
+  }
+  for (const ValencePlace& asked : drawn.valences)
+  {
+    key.add(static_cast<std::uint64_t>(asked.valence));
+  }
+  for (const SizeRequest& size : drawn.sizes)
+  {
+    key.add(size.factor).add(static_cast<std::uint64_t>(size.order));
+  }
+  drawn.visit([&](const Vector3& p) { key.add(p[0]).add(p[1]).add(p[2]); },
+    [&](double length) { key.add(length); });
+  return key.key();
+}
 
 std::shared_ptr<const SharedSurface> findSharedSurface(const SurfaceKey& key)
 {

@@ -25,15 +25,15 @@ namespace quadrille
 /// What the finest level is made from.
 struct SurfaceKey
 {
-  std::uint64_t input =
-    0; ///< contentHash of the converted surface with the marks of curves, in its frame
+  std::uint64_t input = 0; ///< contentHash of the converted surface, in its frame
+  std::uint64_t drawn = 0; ///< of what is drawn on it
   std::optional<double> featureAngle;
   FeatureCriterion featureCriterion = FeatureCriterion::Creases;
   double edgeLength = 0;
 
   bool operator==(const SurfaceKey& other) const
   {
-    return input == other.input && featureAngle == other.featureAngle &&
+    return input == other.input && drawn == other.drawn && featureAngle == other.featureAngle &&
       featureCriterion == other.featureCriterion && edgeLength == other.edgeLength;
   }
 };
@@ -59,6 +59,9 @@ struct SharedLevels : BlockMemory
   std::shared_ptr<const SharedSurface> surface;
   std::shared_ptr<const SharedMap> map;
 };
+
+/// 64 bits over what is drawn that changes the triangles.
+std::uint64_t drawnHash(DrawnRequests drawn);
 
 /// Null where no filter of this process holds it.
 std::shared_ptr<const SharedSurface> findSharedSurface(const SurfaceKey& key);

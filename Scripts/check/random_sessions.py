@@ -269,9 +269,9 @@ class RandomSession:
     def irregular(self):
         """A place at, or near, an irregular vertex, or anywhere."""
         found = self.session.irregular()
-        if len(found.id) == 0 or self.random.random() < 0.2:
+        if len(found.valence) == 0 or self.random.random() < 0.2:
             return self.place()
-        return found.point[self.random.randrange(len(found.id))]
+        return found.point[self.random.randrange(len(found.valence))]
 
     def irregular_of(self, valence):
         found = self.session.irregular()
@@ -322,7 +322,7 @@ class RandomSession:
         start = self.irregular()
         end = self.irregular()
         found = self.session.irregular()
-        if len(found.id) > 1 and self.random.random() < 0.6:
+        if len(found.valence) > 1 and self.random.random() < 0.6:
             order = numpy.argsort(numpy.linalg.norm(found.point - start, axis=1))
             end = found.point[order[min(len(order) - 1, self.random.randint(1, 3))]]
         if self.random.random() < 0.3:
@@ -564,14 +564,12 @@ class RandomSession:
     def others(self, before, after, constraint):
         """After an operation that is told as met: irregular vertices of the quads that came or went elsewhere."""
         reach = REACH * max(before.length, after.length)
-        # Places beside the surface are taken to it first.
-        places = [self.points[numpy.argmin(numpy.linalg.norm(self.points - p, axis=1))] for p in constraint["points"]]
-        if self.corners is not None:
-            places += list(constraint["points"])
+        # Places beside the surface are taken to it, on a fine mesh about to its nearest point.
+        places = [p for given in constraint["points"] for p in (
+            given, self.points[numpy.argmin(numpy.linalg.norm(self.points - given, axis=1))])]
         if constraint["operation"] != "add":
             # What it took was the nearest irregular vertex that can move, which need not be near: its word has it.
-            first = 2 if constraint["operation"] in ("merge", "cancel") else 1
-            taken = places[:first] + ([] if self.corners is None else list(constraint["points"])[:first])
+            taken = places[:4 if constraint["operation"] in ("merge", "cancel") else 2]
             irregular = numpy.flatnonzero(before.index != 0)
             places += [before.points[irregular[numpy.argsort(numpy.linalg.norm(
                 before.points[irregular] - p, axis=1))[:3]]] for p in taken]

@@ -48,7 +48,7 @@ class Edits:
 
     def irregular(self, valence=None):
         found = self.session.irregular()
-        among = [i for i in range(len(found.id)) if valence is None or found.valence[i] == valence]
+        among = [i for i in range(len(found.valence)) if valence is None or found.valence[i] == valence]
         return found.point[self.random.choice(among)] if among else None
 
     # Each returns the stages that may not run.
@@ -88,9 +88,9 @@ class Edits:
     def connect(self):
         """An irregular vertex and the one nearest to it."""
         found = self.session.irregular()
-        if len(found.id) < 2:
+        if len(found.valence) < 2:
             return self.guide()
-        first = found.point[self.random.randrange(len(found.id))]
+        first = found.point[self.random.randrange(len(found.valence))]
         second = found.point[numpy.argsort(numpy.linalg.norm(found.point - first, axis=1))[1]]
         self.ids.append(self.session.connect(first, second))
         return PREPARED

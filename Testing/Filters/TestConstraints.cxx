@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace quadrille
 {
@@ -31,46 +32,28 @@ std::vector<std::string> applyCurves(ConvertedSurface& surface, vtkPolyData* cur
   return applyConstraints(surface, inputs).notices;
 }
 
-/// Marked edges as pairs of points, each seen from every polygon that has it.
-std::map<std::pair<Index, Index>, int> markedEdges(const ConvertedSurface& surface)
+TEST(Constraints, CurvesRunStraightOverTheFaces)
 {
-  std::map<std::pair<Index, Index>, int> edges;
-  for (std::size_t p = 0; p < surface.input.featureEdges.size(); ++p)
-  {
-    for (Index i = 0; i < 3; ++i)
-    {
-      if ((surface.input.featureEdges[p] >> i) & 1)
-      {
-        const Index a = surface.input.polygonPoints[3 * p + i];
-        const Index b = surface.input.polygonPoints[3 * p + (i + 1) % 3];
-        ++edges[{ std::min(a, b), std::max(a, b) }];
-      }
-    }
-  }
-  return edges;
-}
-
-TEST(Constraints, FollowsAGridLineFromBothSides)
-{
-  const Mesh mesh = test::gridPlane(8, 8);
-  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(mesh);
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(8, 8));
   ConvertedSurface surface = convertSurface(data, "");
-  double bounds[6];
-  data->GetBounds(bounds);
-  const double y = 0.5 * (bounds[2] + bounds[3]);
-  // Slightly off the grid line and off the plane: it is projected.
-  const auto notices = applyCurves(
-    surface, test::polyline({ { bounds[0], y + 0.01, 0.02 }, { bounds[1], y - 0.01, 0.02 } }));
-  EXPECT_TRUE(notices.empty());
-  const auto edges = markedEdges(surface);
-  EXPECT_EQ(edges.size(), 8u);
-  for (const auto& [edge, uses] : edges)
+  ConstraintInputs inputs;
+  // Along no edge of the grid, and off the plane: it is projected.
+  const vtkSmartPointer<vtkPolyData> curve =
+    test::polyline({ { 0, 1.25, 0.02 }, { 8, 6.5, 0.02 } });
+  inputs.curves = curve;
+  const PlacedConstraints placed = applyConstraints(surface, inputs);
+  EXPECT_TRUE(placed.notices.empty());
+  ASSERT_EQ(surface.input.drawn.features.size(), 1u);
+  const std::vector<Vector3>& points = surface.input.drawn.features[0].points;
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_LT((points[0] - Vector3(0, 1.25, 0)).norm(), 1e-12);
+  EXPECT_LT((points[1] - Vector3(8, 6.5, 0)).norm(), 1e-12);
+  ASSERT_GT(placed.placed[0].path.size(), 16u); // it crosses as many edges
+  for (const Vector3& p : placed.placed[0].path)
   {
-    EXPECT_EQ(uses, 2);
-    EXPECT_NEAR(mesh.position[edge.first].y(), y, 1e-12);
-    EXPECT_NEAR(mesh.position[edge.second].y(), y, 1e-12);
+    EXPECT_NEAR(p.y(), 1.25 + p.x() * 5.25 / 8, 1e-9);
   }
-  EXPECT_EQ(surface.curveMarks.size(), 16u);
+  EXPECT_TRUE(surface.input.featureEdges.empty()); // arrays stay the user's
 }
 
 TEST(Constraints, OtherTypesAreRefused)
@@ -87,7 +70,7 @@ TEST(Constraints, OtherTypesAreRefused)
   EXPECT_THROW(applyCurves(surface, curve), InvalidInput);
 }
 
-TEST(Constraints, StrokesGuideThePolygonsTheyRunOver)
+TEST(Constraints, CurvesMayBeStrokes)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(8, 8));
   const vtkSmartPointer<vtkPolyData> curve =
@@ -97,24 +80,19 @@ TEST(Constraints, StrokesGuideThePolygonsTheyRunOver)
   type->InsertNextValue(1);
   curve->GetCellData()->AddArray(type);
   ConvertedSurface surface = convertSurface(data, "");
-  applyCurves(surface, curve);
-  EXPECT_TRUE(surface.curveMarks.empty());
-  EXPECT_TRUE(surface.input.featureEdges.empty());
-  ASSERT_EQ(surface.input.guideDirections.size(), 128u);
-  std::size_t guided = 0;
-  for (std::size_t i = 0; i < 128; ++i)
+  ConstraintInputs inputs;
+  inputs.curves = curve;
+  const PlacedConstraints placed = applyConstraints(surface, inputs);
+  EXPECT_TRUE(surface.input.drawn.features.empty());
+  EXPECT_TRUE(surface.input.guideDirections.empty());
+  ASSERT_EQ(surface.input.drawn.strokes.size(), 1u);
+  EXPECT_EQ(surface.input.drawn.strokes[0].points.size(), 3u);
+  ASSERT_GT(placed.placed[0].guided.size(), 100u);
+  for (const GuidedPlace& guided : placed.placed[0].guided)
   {
-    bool touches = false; // two corners on the line
-    int onLine = 0;
-    for (int k = 0; k < 3; ++k)
-    {
-      onLine += surface.input.points[surface.input.polygonPoints[3 * i + k]].y() == 4;
-    }
-    touches = onLine == 2;
-    guided += touches;
-    EXPECT_EQ(surface.input.guideDirections[i], touches ? Vector3(1, 0, 0) : Vector3(0, 0, 0));
+    EXPECT_NEAR(guided.place.y(), 4, 1e-12);
+    EXPECT_NEAR(std::abs(guided.direction.x()), 1, 1e-12);
   }
-  EXPECT_EQ(guided, 16u);
 }
 
 TEST(Constraints, AStrokeIsAsWideAsItsRadius)
@@ -129,26 +107,24 @@ TEST(Constraints, AStrokeIsAsWideAsItsRadius)
   inputs.strokes = stroke;
   inputs.strokeRadius = 1.5;
   const PlacedConstraints placed = applyConstraints(surface, inputs);
-  for (std::size_t i = 0; i < surface.input.guideDirections.size(); ++i)
+  ASSERT_EQ(surface.input.drawn.strokes.size(), 1u);
+  EXPECT_EQ(surface.input.drawn.strokes[0].radius, 1.5);
+  double farthest = 0;
+  for (const GuidedPlace& guided : placed.placed[0].guided)
   {
-    Vector3 centre = Vector3::Zero();
-    for (int k = 0; k < 3; ++k)
+    const Vector3& p = guided.place;
+    const double first = std::hypot(std::max(p.x() - 4, 0.0), p.y() - 4);
+    const double second = std::hypot(p.x() - 4, std::max(4 - p.y(), 0.0));
+    EXPECT_LE(std::min(first, second), 1.5 + 1e-9) << p.transpose();
+    EXPECT_LT(p.z(), 0.25); // the other sheet is nearer than that
+    farthest = std::max(farthest, std::min(first, second));
+    if (std::abs(first - second) > 1e-3)
     {
-      centre += surface.input.points[surface.input.polygonPoints[3 * i + k]] / 3;
-    }
-    const double first = std::hypot(std::max(centre.x() - 4, 0.0), centre.y() - 4);
-    const double second = std::hypot(centre.x() - 4, std::max(4 - centre.y(), 0.0));
-    const bool isNear =
-      centre.z() < 0.25 && std::min(first, second) < 1.5; // the other sheet is nearer than that
-    const Vector3& direction = surface.input.guideDirections[i];
-    EXPECT_EQ(isNear, !direction.isZero(0)) << centre.transpose();
-    if (isNear && std::abs(first - second) > 1e-9)
-    {
-      EXPECT_EQ(direction, first < second ? Vector3(1, 0, 0) : Vector3(0, 1, 0));
+      EXPECT_NEAR(std::abs(first < second ? guided.direction.x() : guided.direction.y()), 1, 1e-9)
+        << p.transpose();
     }
   }
-  ASSERT_EQ(placed.placed.size(), 1u);
-  EXPECT_GT(placed.placed[0].guided.size(), 32u); // more than twice those under it
+  EXPECT_GT(farthest, 1.2);
 }
 
 TEST(Constraints, AnArrayOfVectorsGuides)
@@ -193,12 +169,16 @@ TEST(Constraints, NoPathBetweenComponentsIsAnError)
   EXPECT_THROW(applyCurves(surface, test::polyline({ { 0, 0, 0 }, { 0, 0, 5 } })), InvalidInput);
 }
 
-TEST(Constraints, FarFromTheSurfaceIsTold)
+TEST(Constraints, FarFromTheSurfaceIsSeenInTheDistance)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
   ConvertedSurface surface = convertSurface(data, "");
-  const auto notices = applyCurves(surface, test::polyline({ { 0, 0, 50 }, { 1, 1, 50 } }));
-  EXPECT_EQ(notices.size(), 1u);
+  ConstraintInputs inputs;
+  const vtkSmartPointer<vtkPolyData> curve = test::polyline({ { 0, 0, 50 }, { 1, 1, 50 } });
+  inputs.curves = curve;
+  const PlacedConstraints placed = applyConstraints(surface, inputs);
+  ASSERT_EQ(placed.placed.size(), 1u); // what is told needs the quads, see ConstraintTable
+  EXPECT_NEAR(placed.placed[0].distance, 50, 1e-9);
 }
 
 vtkSmartPointer<vtkPolyData> pointCloud(const std::vector<Vector3>& points)
@@ -232,17 +212,12 @@ TEST(Constraints, StrokesOfTheirOwnInputNeedNoArray)
     EXPECT_EQ(p.z(), 0); // on the surface
     EXPECT_NEAR(p.y(), 4, 1e-12);
   }
-  std::size_t guided = 0;
-  for (std::size_t i = 0; i < surface.input.guideDirections.size(); ++i)
+  ASSERT_EQ(surface.input.drawn.strokes.size(), 1u);
+  EXPECT_EQ(surface.input.drawn.strokes[0].weight, 0.25);
+  for (const GuidedPlace& guided : result.placed[0].guided)
   {
-    if (!surface.input.guideDirections[i].isZero(0))
-    {
-      ++guided;
-      EXPECT_EQ(surface.input.guideDirections[i], Vector3(1, 0, 0));
-      EXPECT_EQ(surface.input.guideWeights[i], 0.25);
-    }
+    EXPECT_EQ(guided.weight, 0.25);
   }
-  EXPECT_EQ(guided, 12u); // both sides of six edges
 }
 
 TEST(Constraints, StrokesCrossTrianglesLargerThanTheirSegments)
@@ -253,16 +228,17 @@ TEST(Constraints, StrokesCrossTrianglesLargerThanTheirSegments)
   ConstraintInputs inputs;
   const vtkSmartPointer<vtkPolyData> stroke = test::polyline({ { 0.7, 0.1, 0 }, { 0.9, 0.3, 0 } });
   inputs.strokes = stroke;
-  applyConstraints(surface, inputs);
-  int guided = 0;
-  for (const Vector3& direction : surface.input.guideDirections)
+  const PlacedConstraints placed = applyConstraints(surface, inputs);
+  const Vector3 along = Vector3(1, 1, 0).normalized();
+  ASSERT_FALSE(placed.placed[0].guided.empty());
+  for (const GuidedPlace& guided : placed.placed[0].guided)
   {
-    guided += direction.isZero(0) ? 0 : 1;
+    EXPECT_NEAR(guided.place.x() - guided.place.y(), 0.6, 1e-9);
+    EXPECT_NEAR(std::abs(guided.direction.dot(along)), 1, 1e-9);
   }
-  EXPECT_EQ(guided, 1);
 }
 
-TEST(Constraints, ValencePointsGoToTheNearestVertex)
+TEST(Constraints, ValencePointsStayBetweenVertices)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
   ConvertedSurface surface = convertSurface(data, "");
@@ -272,14 +248,11 @@ TEST(Constraints, ValencePointsGoToTheNearestVertex)
   inputs.valence = 5;
   const PlacedConstraints result = applyConstraints(surface, inputs);
   ASSERT_EQ(result.placed.size(), 2u);
-  EXPECT_EQ(result.placed[0].path.front(), Vector3(1, 2, 0));
-  ASSERT_EQ(surface.input.targetValences.size(), surface.input.points.size());
-  for (std::size_t i = 0; i < surface.input.points.size(); ++i)
-  {
-    const Vector3& p = surface.input.points[i];
-    const bool asked = p == Vector3(1, 2, 0) || p == Vector3(3, 1, 0);
-    EXPECT_EQ(surface.input.targetValences[i], asked ? 5 : 0);
-  }
+  EXPECT_EQ(result.placed[0].path.front(), Vector3(1.1, 2.2, 0));
+  EXPECT_TRUE(surface.input.targetValences.empty());
+  ASSERT_EQ(surface.input.drawn.valences.size(), 2u);
+  EXPECT_EQ(surface.input.drawn.valences[0], (ValencePlace{ { 1.1, 2.2, 0 }, 5 }));
+  EXPECT_EQ(surface.input.drawn.valences[1], (ValencePlace{ { 3, 1, 0 }, 5 }));
 }
 
 TEST(Constraints, WholeDoublesAreTargetValences)
@@ -313,6 +286,7 @@ TEST(Constraints, OfTwoValencesAtOnePlaceTheLaterOneIsLeftOut)
   points->GetPointData()->AddArray(valences);
   ConstraintInputs inputs;
   inputs.points = points;
+  inputs.sameWithin = 0.2;
   ConvertedSurface surface = convertSurface(data, "");
   const PlacedConstraints made = applyConstraints(surface, inputs);
   ASSERT_EQ(made.placed.size(), 2U);
@@ -320,10 +294,8 @@ TEST(Constraints, OfTwoValencesAtOnePlaceTheLaterOneIsLeftOut)
   EXPECT_NE(made.placed[1].whyNot.find("3 is asked for already"), std::string::npos)
     << made.placed[1].whyNot;
   EXPECT_EQ(made.notices.size(), 1U);
-  EXPECT_EQ(
-    std::count(surface.input.targetValences.begin(), surface.input.targetValences.end(), 3), 1);
-  EXPECT_EQ(
-    std::count(surface.input.targetValences.begin(), surface.input.targetValences.end(), 5), 0);
+  ASSERT_EQ(surface.input.drawn.valences.size(), 1U);
+  EXPECT_EQ(surface.input.drawn.valences[0].valence, 3);
 }
 
 TEST(Constraints, ValenceTwoOnTheBoundaryIsLeftOutWithItsPlace)
@@ -371,10 +343,11 @@ TEST(Constraints, OutputTellsWhatWasReached)
   EXPECT_EQ(kind->GetTuple1(1), 3);
   EXPECT_EQ(kind->GetTuple1(2), 1); // lines come behind vertices
   EXPECT_EQ(data->GetCellData()->GetArray("Valence")->GetTuple1(1), 3);
-  const std::vector<std::string> told = missedValences({ stroke, met, missed }, mesh);
+  AskedConstraints asked;
+  asked.placed = { met, missed };
+  const std::vector<std::string> told = unmetNotices(judgeConstraints(asked, mesh, {}), asked);
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_NE(
-    told[0].find("valence 5 was asked for at (1, 0, 0), but the quads have 3"), std::string::npos);
+  EXPECT_NE(told[0].find("at (1, 0, 0) is not met: asked 5, got 3"), std::string::npos) << told[0];
   EXPECT_EQ(data->GetPointData()->GetArray("Direction")->GetComponent(2, 0), 1);
 }
 

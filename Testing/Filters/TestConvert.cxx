@@ -422,7 +422,10 @@ TEST(Convert, LogRecipeRoundTrip)
   recipe.featureCriterion = FeatureCriterion::Creases;
   recipe.edgeLength = 0.1;
   recipe.patchArray = "Body";
-  recipe.curveMarks = { { 4, 1 }, { 7, 5 } };
+  recipe.drawn.features = { { { { 0, 0, 1 }, { 0.1, 0.2, 1.0 / 3 } } },
+    { { { 1, 0, 0 }, { 2, 0, 0 }, { 3, 0, 0 } } } };
+  recipe.drawn.valences = { { { 1, 2, 3 }, 5 } };
+  recipe.drawn.sizes = { { { 4, 5, 6 }, 0.1, 0.5, 3 } };
   DecimationLog log;
   log.fineHash = 0xfedcba9876543210u;
   vtkNew<vtkTable> table;
@@ -432,9 +435,9 @@ TEST(Convert, LogRecipeRoundTrip)
   EXPECT_EQ(back.featureCriterion, FeatureCriterion::Creases);
   EXPECT_EQ(back.edgeLength, recipe.edgeLength);
   EXPECT_EQ(back.patchArray, recipe.patchArray);
-  ASSERT_EQ(back.curveMarks.size(), 2u);
-  EXPECT_EQ(back.curveMarks[1].polygon, 7u);
-  EXPECT_EQ(back.curveMarks[1].bits, 5);
+  EXPECT_EQ(back.drawn.features, recipe.drawn.features);
+  EXPECT_EQ(back.drawn.valences, recipe.drawn.valences);
+  EXPECT_EQ(back.drawn.sizes, recipe.drawn.sizes);
   EXPECT_EQ(readLog(table, log.fineHash).fineHash, log.fineHash);
   EXPECT_THROW(readLog(table, 1), InvalidInput);
 

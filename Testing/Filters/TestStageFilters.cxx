@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace quadrille
 {
@@ -458,6 +459,75 @@ TEST(StageFilters, ChainMakesCycles)
   ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
   EXPECT_EQ(oneClick->GetConstraintTable()->GetValueByName(0, "Met").ToInt(), 1);
   EXPECT_EQ(pointsOf(chain.extraction->GetOutput()), pointsOf(oneClick->GetOutput()));
+}
+
+/// What is drawn on triangles that are larger than the quads changes these; the surface is made again from the log.
+TEST(StageFilters, ChainHonoursWhatIsDrawn)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(24, 12));
+  const auto onTorus = [](double u, double v)
+  {
+    const double radius = 1 + 0.4 * std::cos(v);
+    return Vector3(radius * std::cos(u), radius * std::sin(u), 0.4 * std::sin(v));
+  };
+  const vtkSmartPointer<vtkPolyData> curve =
+    test::polyline({ onTorus(0.3, 0.2), onTorus(0.9, 0.9) });
+  const vtkSmartPointer<vtkPolyData> stroke = test::polyline({ onTorus(2, 0.1), onTorus(2.6, 1) });
+  vtkNew<vtkPolyData> points;
+  vtkNew<vtkPoints> coordinates;
+  coordinates->SetDataTypeToDouble();
+  vtkNew<vtkIntArray> valences;
+  valences->SetName("TargetValence");
+  for (const auto& [place, valence] :
+    { std::pair{ onTorus(4.1, 1.1), 3 }, std::pair{ onTorus(5, 2), 5 } })
+  {
+    coordinates->InsertNextPoint(place.data());
+    valences->InsertNextValue(valence);
+  }
+  points->SetPoints(coordinates);
+  points->GetPointData()->AddArray(valences);
+  const auto draw = [&](vtkQuadrilleSurfaceAlgorithm* filter)
+  {
+    filter->SetCurvesData(curve);
+    filter->SetStrokesData(stroke);
+    filter->SetStrokeRadius(0.2);
+    filter->SetValencePointsData(points);
+  };
+  auto chain = std::make_unique<Chain>(input);
+  draw(chain->hierarchy);
+  chain->extraction->Update();
+  ASSERT_EQ(chain->extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+    << chain->hierarchy->GetOutcomeText() << chain->map->GetOutcomeText()
+    << chain->upmap->GetOutcomeText() << chain->extraction->GetOutcomeText();
+  const std::vector<Vector3> quads = pointsOf(chain->extraction->GetOutput());
+  const auto oneClick = vtkSmartPointer<vtkQuadRemesh>::New();
+  oneClick->SetInputData(input);
+  draw(oneClick);
+  oneClick->SetTargetTypeToNumberOfQuads();
+  oneClick->SetNumberOfQuads(500);
+  oneClick->Update();
+  ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  ASSERT_EQ(oneClick->GetOutput()->GetFieldData()->GetArray("Attempts")->GetTuple1(0), 1);
+  EXPECT_EQ(quads, pointsOf(oneClick->GetOutput()));
+  // From data alone, as behind a file: nothing of this process is found.
+  vtkNew<vtkPolyData> coarse;
+  coarse->DeepCopy(chain->map->GetOutput());
+  vtkNew<vtkPolyData> intermediate;
+  intermediate->DeepCopy(chain->hierarchy->GetOutput(1));
+  vtkNew<vtkTable> log;
+  log->DeepCopy(chain->hierarchy->GetOutputDataObject(2));
+  chain.reset();
+  vtkNew<vtkIntegerGridMapUpmap> upmap;
+  upmap->SetInputData(0, coarse);
+  upmap->SetInputData(1, input);
+  upmap->SetInputDataObject(2, log);
+  upmap->SetInputData(3, intermediate);
+  vtkNew<vtkQuadExtraction> extraction;
+  extraction->SetInputConnection(upmap->GetOutputPort());
+  extraction->Update();
+  ASSERT_EQ(extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+    << upmap->GetOutcomeText() << extraction->GetOutcomeText();
+  EXPECT_EQ(pointsOf(extraction->GetOutput()), quads);
 }
 
 /// An array of the surface that changes is answered from the stage that it enters at, with the same levels.

@@ -3,12 +3,14 @@
 """quadrille.Session: numpy in and out, undo, files, and what is wrong with what is given."""
 import math
 import os
+import pathlib
 import tempfile
 import unittest
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOPLY import vtkPLYReader
 
 import quadrille
 
@@ -52,7 +54,25 @@ def same(first, second):
 
 
 def valences(made):
-    return dict(zip(made.irregular().id.tolist(), made.irregular().valence.tolist()))
+    """By place."""
+    return dict(zip(map(tuple, made.irregular().point.tolist()), made.irregular().valence.tolist()))
+
+
+def cube():
+    """12 triangles."""
+    points = numpy.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
+    sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    return points, numpy.array([corner for a, b, c, d in sides for corner in ((a, b, c), (a, c, d))])
+
+
+def part():
+    """A flange, whose triangles are larger than its quads."""
+    reader = vtkPLYReader()
+    reader.SetFileName(str(pathlib.Path(__file__).resolve().parents[2] / "Data" / "part.ply"))
+    reader.Update()
+    data = reader.GetOutput()
+    return (vtk_to_numpy(data.GetPoints().GetData()).astype(float),
+            vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3))
 
 
 class SessionTest(unittest.TestCase):
@@ -223,10 +243,11 @@ class SessionTest(unittest.TestCase):
             empty.append(int(numpy.argmax(nearest)))
             places = numpy.concatenate((places, points[empty[-1:]]))
         a, b, c = empty
+        at = [tuple(p) for p in points.tolist()]
         made.add_pair(points[a], b)
-        self.assertEqual(valences(made), {**before, a: 3, b: 5})
+        self.assertEqual(valences(made), {**before, at[a]: 3, at[b]: 5})
         made.move_irregular(a, c)
-        self.assertEqual(valences(made), {**before, c: 3, b: 5})
+        self.assertEqual(valences(made), {**before, at[c]: 3, at[b]: 5})
         made.cancel_pair(c, b)
         self.assertEqual(valences(made), before)
         self.assertTrue(all(word["met"] for word in made.update()["constraints"]))
@@ -308,6 +329,67 @@ class SessionTest(unittest.TestCase):
             with self.assertRaisesRegex(quadrille.InvalidInput, text):
                 call()
         self.assertEqual(made.constraints(), [])
+
+
+class OneWayForAllFronts(unittest.TestCase):
+    """A session, remesh() and the filter make the same bytes of the same constraints."""
+
+    def check(self, mesh, quads, ask, told, kind, places, valence=3, radius=0.0):
+        made = quadrille.Session(mesh, quads=quads, threads=2)
+        ask(made)
+        expected = made.quads
+        self.assertEqual([word["kind"] for word in made.update()["constraints"]], [told])
+        source = quadrille.vtkQuadConstraintSource()
+        source.SetKind(getattr(source, kind))
+        points = numpy.asarray(places, dtype=float)
+        source.SetNumberOfPoints(len(points))
+        for i, p in enumerate(points):
+            source.SetPoint(i, *p)
+        source.SetValence(valence)
+        source.SetRadius(radius)
+        run = quadrille.vtkQuadRemesh()
+        run.SetInputDataObject(quadrille.to_polydata(*mesh))
+        run.SetNumberOfQuads(quads)
+        run.SetNumberOfThreads(2)
+        run.AddConstraintsConnection(source.GetOutputPort())
+        run.Update()
+        self.assertTrue(same(quadrille.to_arrays(run.GetOutput()), expected))
+        lines = {"FEATURE_CURVE": "curves", "GUIDING_STROKE": "strokes", "CONNECTION": "connections",
+                 "CYCLE": "cycles"}
+        if kind in lines:
+            more = {lines[kind]: [points]}
+            if radius:
+                more["stroke_radius"] = radius
+            self.assertTrue(same(quadrille.to_arrays(quadrille.remesh(mesh, quads=quads, threads=2, **more)), expected))
+        return made
+
+    def on_a_surface(self, mesh, quads):
+        points, faces = mesh
+        corners = points[faces]
+        areas = numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        a, b, c = corners[numpy.argmax(areas)]
+        p, q = 0.5 * a + 0.3 * b + 0.2 * c, 0.2 * a + 0.3 * b + 0.5 * c
+        length = float(numpy.linalg.norm(q - p))
+        self.check(mesh, quads, lambda made: made.add_feature([p, q]), "feature", "FEATURE_CURVE", [p, q])
+        self.check(mesh, quads, lambda made: made.add_guide([p, q], radius=0.2 * length), "guide", "GUIDING_STROKE",
+                   [p, q], radius=0.2 * length)
+        self.check(mesh, quads, lambda made: made.set_valence(p, 3), "valence", "VALENCE", [p])
+        self.check(mesh, quads, lambda made: made.connect([p, q]), "connection", "CONNECTION", [p, q])
+        return p, q
+
+    def test_on_a_cube(self):
+        mesh = cube()
+        self.on_a_surface(mesh, 2400)
+        ring = [(0.5, 0.5, 1), (1, 0.5, 0.5), (0.5, 0.5, 0), (0, 0.5, 0.5)]
+        self.check(mesh, 2400, lambda made: made.add_cycle(ring), "cycle", "CYCLE", ring)
+
+    def test_on_a_part(self):
+        mesh = part()
+        self.on_a_surface(mesh, 3000)
+        irregular = quadrille.Session(mesh, quads=3000, threads=2).irregular()
+        origin = irregular.point[numpy.argmax(irregular.point[:, 2])]
+        target = 0.9 * origin + (0, 0, 0.1 * origin[2])
+        self.check(mesh, 3000, lambda made: made.move_irregular(origin, target), "irregular", "MOVE", [origin, target])
 
 
 if __name__ == "__main__":

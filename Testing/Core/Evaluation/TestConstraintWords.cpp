@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// What the arrays of a surface ask for, and what the words say of a plane of unit quads.
+#include "Evaluation/ConstraintMeasures.h"
 #include "Evaluation/ConstraintWords.h"
 
 #include <gtest/gtest.h>
@@ -159,6 +160,79 @@ TEST(ConstraintWords, SizesAreComparedAgainstEachOther)
   EXPECT_NE(word.reason.find("factor"), std::string::npos);
 }
 
+/// A plane with one point of valence 3 and one of 5, as far as valences are concerned.
+QuadMesh withIrregularPoints()
+{
+  QuadMesh mesh = plane();
+  mesh.valence[pointAt(3, 3)] = 3;
+  mesh.valence[pointAt(6, 6)] = 5;
+  return mesh;
+}
+
+PlacedConstraint placedValence(const Vector3& place, int valence)
+{
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Valence;
+  placed.given = placed.path = { place };
+  placed.valence = valence;
+  return placed;
+}
+
+TEST(ConstraintWords, ValencesAreAsFarAsTheNearestPointThatHasThem)
+{
+  const QuadMesh mesh = withIrregularPoints();
+  AskedConstraints asked;
+  asked.placed = { placedValence({ 3.29, 3, 0 }, 3), placedValence({ 3, 3.31, 0 }, 3),
+    placedValence({ 3, 4, 0 }, 5), placedValence({ 6.2, 6, 0 }, 4), placedValence({ 8, 8, 0 }, 4),
+    placedValence({ 8, 8, 0 }, 7) };
+  const std::vector<ConstraintWord> words = judgeConstraints(asked, mesh, {});
+  ASSERT_EQ(words.size(), 6U);
+  EXPECT_TRUE(words[0].isMet) << words[0].reason;
+  EXPECT_NEAR(words[0].deviation, 0.29, 1e-12);
+  EXPECT_STREQ(words[0].unit, "edge lengths");
+  EXPECT_FALSE(words[1].isMet);
+  EXPECT_NE(words[1].reason.find("0.31 edge lengths away"), std::string::npos) << words[1].reason;
+  EXPECT_FALSE(words[2].isMet);
+  EXPECT_NEAR(words[2].deviation, std::hypot(3, 2), 1e-12);
+  EXPECT_FALSE(words[3].isMet); // the nearest point is the one of valence 5
+  EXPECT_TRUE(words[4].isMet);
+  EXPECT_FALSE(words[5].isMet);
+  EXPECT_TRUE(std::isnan(words[5].deviation));
+  // What notices say is the same.
+  EXPECT_EQ(unmetNotices(words, asked).size(), 4U);
+}
+
+TEST(ConstraintWords, AMoveIsMetWhereItsOldPlaceIsRegularToo)
+{
+  PlacedConstraint move = placedValence({ 0, 0, 0 }, 3);
+  move.kind = ConstraintKind::Move;
+  AskedConstraints asked;
+  for (const Vector3& from : { Vector3(2, 8, 0), Vector3(6, 6, 0) })
+  {
+    move.path = { from, Vector3(3, 3, 0) };
+    asked.placed.push_back(move);
+  }
+  const std::vector<ConstraintWord> words = judgeConstraints(asked, withIrregularPoints(), {});
+  EXPECT_TRUE(words[0].isMet) << words[0].reason;
+  EXPECT_FALSE(words[1].isMet);
+}
+
+TEST(ConstraintMeasures, SizesAreThoseOfTheQuadsWithinTheRadius)
+{
+  const QuadMesh mesh = plane(); // of edge length 1
+  ConstraintMeasures measures(mesh);
+  std::vector<Index> quads;
+  const ConstraintMeasure met = measures.size({ 5, 5, 0 }, 1, { 0.5, 2 }, &quads); // 0.5 of 2 is 1
+  EXPECT_EQ(quads.size(), 4U);
+  EXPECT_TRUE(met.isMet) << met.reason;
+  EXPECT_NEAR(met.deviation, 1, 1e-12);
+  quads.clear();
+  const ConstraintMeasure missed = measures.size({ 5, 5, 0 }, 0, { 2, 1 }, &quads);
+  EXPECT_EQ(quads.size(), 4U); // those round the point
+  EXPECT_FALSE(missed.isMet);
+  EXPECT_NEAR(missed.deviation, 2, 1e-12);
+}
+
 TEST(ConstraintWords, WithoutQuadsNothingIsMetAndAPointOffTheSurfaceIsTold)
 {
   AskedConstraints asked;
@@ -174,11 +248,11 @@ TEST(ConstraintWords, WithoutQuadsNothingIsMetAndAPointOffTheSurfaceIsTold)
   EXPECT_TRUE(words[0].isOffSurface);
   EXPECT_EQ(offSurfaceNotices(words).size(), 1U);
   EXPECT_EQ(metOfDrawn(words, asked), std::vector<bool>{ false });
-  EXPECT_EQ(missedValences(asked.placed, plane()).size(), 1U);
+  EXPECT_EQ(unmetNotices(words, asked).size(), 1U);
   const std::vector<ConstraintWord> none = judgeConstraints(asked, QuadMesh{}, {});
   ASSERT_EQ(none.size(), 1U);
   EXPECT_FALSE(none[0].isMet);
-  EXPECT_TRUE(missedValences(asked.placed, QuadMesh{}).empty());
+  EXPECT_TRUE(unmetNotices(none, asked).empty());
 }
 
 } // namespace

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Nearest places by trees against looking at all of them, and what strokes cover.
-#include "Requests/DrawnConstraints.h"
+/// Nearest places by a tree against looking at all of them, and places along strokes.
+#include "Requests/GuidedPlaces.h"
+#include "Requests/SurfacePlaces.h"
 
 #include "Base/Error.h"
 #include "Mesh/Distance.h"
@@ -33,15 +34,9 @@ TEST(SurfacePlaces, AreThoseOfLookingAtAll)
   const SurfaceInput input = toInput(torus(24, 12));
   const SurfacePlaces places(input, 2);
   std::mt19937 random(1);
-  for (int i = 0; i < 200; ++i) // more than it takes for a tree of the corners
+  for (int i = 0; i < 200; ++i)
   {
     const Vector3 p = randomPlace(random);
-    Index corner = 0;
-    for (Index v = 0; v < input.points.size(); ++v)
-    {
-      corner = (input.points[v] - p).norm() < (input.points[corner] - p).norm() ? v : corner;
-    }
-    EXPECT_EQ(places.nearestCorner(p), corner);
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f + 1 < input.polygonOffsets.size(); ++f)
     {
@@ -50,6 +45,7 @@ TEST(SurfacePlaces, AreThoseOfLookingAtAll)
     }
     const SurfacePlaces::Place place = places.nearestPlace(p);
     EXPECT_EQ((place.point - p).norm(), least);
+    EXPECT_EQ(places.nearestPlace(place.point).point, place.point); // it is on the surface now
   }
 }
 
@@ -85,10 +81,9 @@ TEST(SurfacePlaces, PolygonsAreTakenAsTheirTriangles)
   const SurfacePlaces places(input);
   EXPECT_LT((places.nearestPlace({ 1.5, 1.75, 0 }).point - Vector3(1, 1.75, 0)).norm(), 1e-15);
   EXPECT_EQ(places.nearestPlace({ 0.5, 0.5, 3 }).point, Vector3(0.5, 0.5, 0));
-  EXPECT_EQ(places.nearestCorner({ 8, 8, 8 }), 2u); // point 6 is on no polygon
-  EXPECT_TRUE(places.isOnBoundary(3));
+  EXPECT_EQ(places.nearestPlace({ 8, 8, 8 }).point, Vector3(2, 1, 0)); // point 6 is on no polygon
+  EXPECT_TRUE(places.isOnBoundary(places.nearestPlace({ 1, 1, 0 })));
   EXPECT_THROW(places.nearestPlace({ std::nan(""), 0, 0 }), InvalidInput);
-  EXPECT_THROW(places.nearestCorner({ std::nan(""), 0, 0 }), InvalidInput);
   input.polygonPoints.edit()[3] = 7;
   EXPECT_THROW(SurfacePlaces{ input }, InvalidInput);
 }
@@ -97,38 +92,77 @@ TEST(SurfacePlaces, KnowTheBoundary)
 {
   const SurfaceInput open = toInput(gridPlane(4, 4));
   const SurfacePlaces places(open);
-  for (Index p = 0; p < open.points.size(); ++p)
+  const auto isOnBoundary = [&places](const Vector3& p)
+  { return places.isOnBoundary(places.nearestPlace(p)); };
+  for (const Vector3& at : open.points)
   {
-    const Vector3& at = open.points[p];
     const bool isBorder = at.x() == 0 || at.x() == 4 || at.y() == 0 || at.y() == 4;
-    EXPECT_EQ(places.isOnBoundary(p), isBorder) << at.transpose();
+    EXPECT_EQ(isOnBoundary(at), isBorder) << at.transpose();
+  }
+  EXPECT_TRUE(isOnBoundary({ 1.3, 0, 0 }));
+  EXPECT_TRUE(isOnBoundary({ 1.3, -2, 0 })); // comes to lie there
+  EXPECT_FALSE(isOnBoundary({ 1.3, 0.01, 0 }));
+}
+
+/// Every triangle has points of its own, as in STL files.
+TEST(SurfacePlaces, PointsAtOnePlaceAreNoBoundary)
+{
+  const SurfaceInput joined = toInput(gridPlane(2, 2));
+  SurfaceInput soup;
+  for (const Index p : joined.polygonPoints)
+  {
+    soup.polygonPoints.push_back(static_cast<Index>(soup.points.size()));
+    soup.points.push_back(joined.points[p]);
+  }
+  soup.polygonOffsets = joined.polygonOffsets;
+  const SurfacePlaces places(soup);
+  EXPECT_FALSE(places.isOnBoundary(places.nearestPlace({ 1, 1, 0 })));
+  EXPECT_TRUE(places.isOnBoundary(places.nearestPlace({ 1, 2, 0 })));
+}
+
+TEST(GuidedPlaces, LieWithinTheRadiusWithTheDirectionOfTheStroke)
+{
+  // Two triangles, larger than all that is asked for.
+  const SurfaceInput input = toInput(gridPlane(1, 1));
+  const SurfacePlaces places(input);
+  constexpr double kRadius = 0.1;
+  const Vector3 a(0.3, 0.4, 0), b(0.7, 0.6, 0);
+  const Vector3 along = (b - a).normalized();
+  const std::vector<GuidedPlace> found = guidedAlong(input, places, { a, b }, 0.5, kRadius);
+  double area = 0, farthest = 0;
+  for (const GuidedPlace& guided : found)
+  {
+    const double distance = distanceToSegment(guided.place, a, b);
+    EXPECT_LE(distance, kRadius + 1e-12);
+    farthest = std::max(farthest, distance);
+    EXPECT_NEAR(std::abs(guided.direction.dot(along)), 1, 1e-9);
+    EXPECT_EQ(guided.weight, 0.5);
+    area += guided.area;
+  }
+  EXPECT_GT(farthest, 0.7 * kRadius);
+  const double whole = 2 * kRadius * (b - a).norm() + 3.14159 * kRadius * kRadius;
+  EXPECT_NEAR(area, whole, 0.3 * whole); // steps of a sixth of the radius
+  const std::vector<GuidedPlace> under = guidedAlong(input, places, { a, b }, 1, 0);
+  EXPECT_GT(under.size(), 100U);
+  for (const GuidedPlace& guided : under)
+  {
+    EXPECT_LT(distanceToSegment(guided.place, a, b), 1e-12);
   }
 }
 
-TEST(DrawnConstraints, AStrokeCoversItsRadius)
+/// A stroke over an edge goes on along it on both sides.
+TEST(GuidedPlaces, FollowTheSurfaceOverItsEdges)
 {
-  const SurfaceInput input = toInput(gridPlane(20, 20));
+  const SurfaceInput input = toInput(unitCube(1));
   const SurfacePlaces places(input);
-  constexpr double kRadius = 2.2;
-  const Vector3 a(5.3, 10.4, 0), b(14.6, 10.4, 0);
-  ConstraintPlacement placement(input, places);
-  placement.addStroke({ 0, { a, b } }, 0.5, kRadius);
-  const std::vector<GuideMark> marks = placement.guideMarks();
-  std::vector<bool> isMarked(input.polygonOffsets.size() - 1, false);
-  for (const GuideMark& mark : marks)
+  const std::vector<Vector3> course{ { 0.5, 0.5, 1 }, { 1, 0.5, 1 }, { 1, 0.5, 0.5 } };
+  for (const GuidedPlace& guided : guidedAlong(input, places, course, 1, 0.2))
   {
-    isMarked[mark.polygon] = true;
-    EXPECT_LT((mark.direction - Vector3(1, 0, 0)).norm(), 1e-14); // places are rounded
-    EXPECT_EQ(mark.weight, 0.5);
-  }
-  for (Index f = 0; f < isMarked.size(); ++f)
-  {
-    const Vector3 centre = guidedPolygon(input, f, Vector3::UnitX(), 1).centre;
-    const double distance = distanceToSegment(centre, a, b);
-    if (distance > 1) // those below the stroke are marked wherever their centres are
-    {
-      EXPECT_EQ(isMarked[f], distance <= kRadius) << centre.transpose();
-    }
+    const bool isOnTop = guided.normal.z() > 0.5;
+    EXPECT_NEAR(std::abs(isOnTop ? guided.direction.x() : guided.direction.z()), 1, 1e-9)
+      << guided.place.transpose();
+    EXPECT_NEAR(isOnTop ? guided.place.z() : guided.place.x(), 1, 1e-9);
+    EXPECT_LE(std::abs(guided.place.y() - 0.5), 0.2 + 1e-9);
   }
 }
 

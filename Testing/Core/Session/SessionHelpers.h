@@ -53,13 +53,14 @@ inline bool areSame(const QuadMesh& a, const QuadMesh& b)
     std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(Vector3)) == 0;
 }
 
-/// By point of the input.
-inline std::map<Index, int> valencesOf(const SessionResult& result)
+/// By place.
+using PlaceValences = std::map<Vector3, int, PlaceOrder>;
+inline PlaceValences valencesOf(const SessionResult& result)
 {
-  std::map<Index, int> valences;
+  PlaceValences valences;
   for (const IrregularVertex& vertex : result.irregular)
   {
-    valences[vertex.point] = vertex.valence;
+    valences[vertex.place] = vertex.valence;
   }
   return valences;
 }

@@ -33,7 +33,7 @@ protected:
       double nearest = 1e300;
       for (const IrregularVertex& other : before_)
       {
-        nearest = other.point == vertex.point
+        nearest = other.place == vertex.place
           ? nearest
           : std::min(nearest, (other.place - vertex.place).norm());
       }
@@ -48,7 +48,7 @@ protected:
   }
 
   /// After the update: exactly these irregular vertices, in the map and in the quads.
-  void expectIrregular(std::map<Index, int> expected)
+  void expectIrregular(PlaceValences expected)
   {
     const SessionReport& report = session_.update();
     ASSERT_TRUE(report.status.ok()) << report.status.message;
@@ -66,16 +66,10 @@ protected:
       irregular += valence != 4;
     }
     EXPECT_EQ(irregular, expected.size());
-    for (const auto& [point, valence] : expected)
+    for (const auto& [place, valence] : expected)
     {
-      EXPECT_EQ(quadValenceAt(result.quads, session_.surface().points[point]), valence);
+      EXPECT_EQ(quadValenceAt(result.quads, place), valence);
     }
-  }
-
-  Index pointAt(const Vector3& p) const
-  {
-    const std::vector<Vector3>& points = session_.surface().points;
-    return static_cast<Index>(std::find(points.begin(), points.end(), p) - points.begin());
   }
 
   Session session_;
@@ -86,24 +80,24 @@ TEST_F(IrregularEdits, AMovedVertexLeavesTheOthers)
 {
   const IrregularVertex from = loneliest(3);
   const Vector3 to = emptiestPlace(session_, before_);
-  std::map<Index, int> expected = valencesOf(*session_.result());
+  PlaceValences expected = valencesOf(*session_.result());
   session_.add(IrregularEdit{ IrregularOperation::Move, { from.place, to }, {}, {}, {}, {} });
-  expected.erase(from.point);
-  expected[pointAt(to)] = 3;
+  expected.erase(from.place);
+  expected[to] = 3;
   expectIrregular(expected);
 }
 
 TEST_F(IrregularEdits, APairComesAndGoes)
 {
-  std::map<Index, int> expected = valencesOf(*session_.result());
-  const std::map<Index, int> first = expected;
+  PlaceValences expected = valencesOf(*session_.result());
+  const PlaceValences first = expected;
   const Vector3 a = emptiestPlace(session_, before_);
   std::vector<IrregularVertex> with = before_;
-  with.push_back({ 0, a, 3 });
+  with.push_back({ a, 3 });
   const Vector3 b = emptiestPlace(session_, with);
   session_.add(IrregularEdit{ IrregularOperation::Add, { a, b }, {}, {}, {}, {} });
-  expected[pointAt(a)] = 3;
-  expected[pointAt(b)] = 5;
+  expected[a] = 3;
+  expected[b] = 5;
   expectIrregular(expected);
   session_.add(IrregularEdit{ IrregularOperation::Cancel, { b, a }, {}, {}, {}, {} });
   expectIrregular(first);
@@ -111,49 +105,47 @@ TEST_F(IrregularEdits, APairComesAndGoes)
 
 TEST_F(IrregularEdits, VerticesMergeAndSplit)
 {
-  std::map<Index, int> expected = valencesOf(*session_.result());
+  PlaceValences expected = valencesOf(*session_.result());
   const IrregularVertex a = loneliest(3);
   // The nearest other one of valence 3.
   const IrregularVertex* b = nullptr;
   for (const IrregularVertex& vertex : before_)
   {
-    if (vertex.valence == 3 && vertex.point != a.point &&
+    if (vertex.valence == 3 && vertex.place != a.place &&
       (!b || (vertex.place - a.place).norm() < (b->place - a.place).norm()))
     {
       b = &vertex;
     }
   }
   ASSERT_NE(b, nullptr);
-  const std::map<Index, int> first = expected;
+  const PlaceValences first = expected;
   session_.add(IrregularEdit{ IrregularOperation::Merge, { a.place, b->place }, {}, {}, {}, {} });
-  expected[a.point] = 2;
-  expected.erase(b->point);
+  expected[a.place] = 2;
+  expected.erase(b->place);
   expectIrregular(expected);
-  session_.add(IrregularEdit{ IrregularOperation::Split,
-    { session_.surface().points[a.point], session_.surface().points[a.point],
-      session_.surface().points[b->point] },
-    {}, {}, {}, {} });
+  session_.add(
+    IrregularEdit{ IrregularOperation::Split, { a.place, a.place, b->place }, {}, {}, {}, {} });
   expectIrregular(first);
 }
 
 TEST_F(IrregularEdits, AnOperationThatIsTakenBackLeavesTheLaterOnes)
 {
-  std::map<Index, int> expected = valencesOf(*session_.result());
+  PlaceValences expected = valencesOf(*session_.result());
   const Vector3 a = emptiestPlace(session_, before_);
   std::vector<IrregularVertex> with = before_;
-  with.push_back({ 0, a, 3 });
+  with.push_back({ a, 3 });
   const Vector3 b = emptiestPlace(session_, with);
   const IrregularVertex from = loneliest(3);
   const int move =
     session_.add(IrregularEdit{ IrregularOperation::Move, { from.place, a }, {}, {}, {}, {} });
   session_.update();
   const IrregularVertex other = *std::find_if(before_.begin(), before_.end(),
-    [&](const IrregularVertex& v) { return v.valence == 3 && v.point != from.point; });
+    [&](const IrregularVertex& v) { return v.valence == 3 && v.place != from.place; });
   session_.add(IrregularEdit{ IrregularOperation::Move, { other.place, b }, {}, {}, {}, {} });
   session_.update();
   session_.remove(move);
-  expected.erase(other.point);
-  expected[pointAt(b)] = 3;
+  expected.erase(other.place);
+  expected[b] = 3;
   expectIrregular(expected);
 }
 
@@ -183,7 +175,7 @@ TEST_F(IrregularEdits, RefusesWhatTheSumDoesNotAllow)
               .find("already"),
     std::string::npos);
   const IrregularVertex other = *std::find_if(before_.begin(), before_.end(),
-    [&](const IrregularVertex& v) { return v.valence == 3 && v.point != from.point; });
+    [&](const IrregularVertex& v) { return v.valence == 3 && v.place != from.place; });
   EXPECT_NE(messageOf({ IrregularOperation::Cancel, { from.place, other.place }, {}, {}, {}, {} })
               .find("by -2"),
     std::string::npos);
@@ -196,15 +188,15 @@ TEST_F(IrregularEdits, ValencesThatKeepTheSumLeaveTheOthersToo)
   const IrregularVertex from = loneliest(3);
   session_.add(IrregularEdit{ IrregularOperation::Move, { from.place, a }, {}, {}, {}, {} });
   session_.update();
-  std::map<Index, int> expected = valencesOf(*session_.result());
+  PlaceValences expected = valencesOf(*session_.result());
   const Vector3 b = emptiestPlace(session_, session_.result()->irregular);
   std::vector<IrregularVertex> with = session_.result()->irregular;
-  with.push_back({ 0, b, 3 });
+  with.push_back({ b, 3 });
   const Vector3 c = emptiestPlace(session_, with);
   session_.add(ValenceAt{ b, 3 });
   session_.add(ValenceAt{ c, 5 });
-  expected[pointAt(b)] = 3;
-  expected[pointAt(c)] = 5;
+  expected[b] = 3;
+  expected[c] = 5;
   expectIrregular(expected);
 }
 
@@ -239,8 +231,9 @@ protected:
 
 TEST_F(IrregularEditsOnAPart, AllOthersStay)
 {
+  const std::vector<Vector3>& points = session_->surface().points;
   const auto isPoint = [&](const IrregularVertex& vertex)
-  { return session_->surface().points[vertex.point] == vertex.place; };
+  { return std::find(points.begin(), points.end(), vertex.place) != points.end(); };
   EXPECT_FALSE(std::all_of(before_.begin(), before_.end(), isPoint)) << "no triangle was refined";
   const std::vector<HeldVertex> onFeatures = session_->result()->onFeatures;
   const Vector3 aside = from_.place * 0.85 + Vector3(0, 0, 0.15 * kUpperSide);
@@ -255,7 +248,7 @@ TEST_F(IrregularEditsOnAPart, AllOthersStay)
     const bool stays = std::any_of(after.begin(), after.end(),
       [&](const IrregularVertex& other)
       { return other.place == vertex.place && other.valence == vertex.valence; });
-    EXPECT_EQ(stays, vertex.point != from_.point);
+    EXPECT_EQ(stays, vertex.place != from_.place);
   }
   // Other triangles of the coarse level, the same turns.
   const std::vector<HeldVertex>& there = session_->result()->onFeatures;

@@ -4,6 +4,7 @@
 #include "SessionHelpers.h"
 #include "SphereWithoutRoom.h"
 
+#include "Mesh/Distance.h"
 #include "Quads/QuadChains.h"
 
 #include <algorithm>
@@ -105,7 +106,7 @@ TEST(Session, ValencesComeOutAndAreTold)
   EXPECT_TRUE(report.constraints[0].isMet) << report.constraints[0].reason;
   EXPECT_EQ(report.constraints[0].kind, "valence");
   EXPECT_EQ(quadValenceAt(session.result()->quads, place), 5);
-  EXPECT_EQ(valencesOf(*session.result())[100], 5);
+  EXPECT_EQ(valencesOf(*session.result())[place], 5);
 }
 
 TEST(Session, PointsOffTheSurfaceAreToldWithTheirPlace)
@@ -183,7 +184,7 @@ TEST(Session, LaterGuidesCountWhereTheyOverlap)
   const SessionReport& report = session.update();
   ASSERT_TRUE(report.status.ok());
   ASSERT_FALSE(report.constraints[0].isMet);
-  EXPECT_NE(report.constraints[0].reason.find("constraint 2"), std::string::npos)
+  EXPECT_NE(report.constraints[0].reason.find("guide 2, which is later"), std::string::npos)
     << report.constraints[0].reason;
 }
 
@@ -214,7 +215,7 @@ TEST(Session, ConnectionsAreChainsOfEdges)
   {
     for (const IrregularVertex& b : before.irregular)
     {
-      if (a.point < b.point &&
+      if (PlaceOrder()(a.place, b.place) &&
         chains.between(chains.nearestPoint(a.place), chains.nearestPoint(b.place)).empty() &&
         (!first || (a.place - b.place).norm() < (first->place - second->place).norm()))
       {
@@ -258,6 +259,146 @@ TEST(Session, CyclesClose)
   ASSERT_TRUE(report.status.ok()) << report.status.message;
   EXPECT_TRUE(report.constraints[0].isMet) << report.constraints[0].reason;
   EXPECT_FALSE(QuadChains(session.result()->quads).closedNear(cycle.points, 0.7).empty());
+}
+
+/// A cube of 12 triangles, with quads much smaller than these.
+class SessionOnACube : public ::testing::Test
+{
+protected:
+  SessionOnACube() : session_(toInput(unitCube(1)), sessionOptions(2400)) {}
+
+  const ConstraintReport& word()
+  {
+    const SessionReport& report = session_.update();
+    EXPECT_TRUE(report.status.ok()) << report.status.message;
+    const ConstraintReport& word = report.constraints[0];
+    EXPECT_TRUE(word.isMet) << word.text << ": " << word.reason;
+    return word;
+  }
+  const QuadMesh& quads() const { return session_.result()->quads; }
+
+  static constexpr double kEdge = 0.05; // of the quads
+  Session session_;
+};
+
+TEST_F(SessionOnACube, AValenceComesToItsPlace)
+{
+  const Vector3 middle(0.5, 0.5, 1);
+  session_.add(ValenceAt{ middle, 3 });
+  EXPECT_LE(word().deviation, 0.3);
+  double least = 1e300;
+  for (std::size_t i = 0; i < quads().points.size(); ++i)
+  {
+    const bool isAsked = quads().valence[i] == 3 && quads().points[i].z() > 1 - 1e-9;
+    least = isAsked ? std::min(least, (quads().points[i] - middle).norm()) : least;
+  }
+  EXPECT_LE(least, 0.3 * kEdge);
+}
+
+TEST_F(SessionOnACube, AFeatureRunsAslantAcrossASide)
+{
+  const Vector3 a(0.2, 0.1, 1), b(0.9, 0.8, 1);
+  session_.add(FeatureLine{ { a, b } });
+  word();
+  constexpr int kSteps = 100;
+  for (int i = 0; i <= kSteps; ++i)
+  {
+    const Vector3 p = a + (b - a) * i / kSteps;
+    double least = 1e300;
+    for (const std::array<Index, 4>& quad : quads().quads)
+    {
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        const Vector3& c = quads().points[quad[k]];
+        const Vector3& d = quads().points[quad[(k + 1) % 4]];
+        least = std::min(least, distanceToSegment(p, c, d));
+      }
+    }
+    EXPECT_LE(least, 0.3 * kEdge) << p.transpose();
+  }
+}
+
+/// The mean angle between a direction on the upper side and the edges of the quads, of those near a segment.
+double meanAngle(const QuadMesh& quads, const Vector3& a, const Vector3& b, double reach)
+{
+  double sum = 0;
+  std::size_t count = 0;
+  for (const std::array<Index, 4>& quad : quads.quads)
+  {
+    const auto at = [&](std::size_t k) { return quads.points[quad[k]]; };
+    const Vector3 centre = 0.25 * (at(0) + at(1) + at(2) + at(3));
+    if (centre.z() < 1 - 1e-9 || distanceToSegment(centre, a, b) > reach)
+    {
+      continue;
+    }
+    double least = kPi / 2;
+    for (const Vector3& edge :
+      { Vector3(at(1) + at(2) - at(0) - at(3)), Vector3(at(2) + at(3) - at(0) - at(1)) })
+    {
+      least = std::min(least, std::atan2(edge.cross(b - a).norm(), std::abs(edge.dot(b - a))));
+    }
+    sum += least * 180 / kPi;
+    ++count;
+  }
+  return sum / static_cast<double>(count);
+}
+
+/// The cube's edges leave the quads of a side no room to turn all the way, which the word says.
+TEST_F(SessionOnACube, StrokesTurnTheQuadsWithinTheirRadius)
+{
+  constexpr double kAngle = 56 * kPi / 180;
+  const Vector3 along(std::cos(kAngle), std::sin(kAngle), 0), middle(0.5, 0.5, 1);
+  const Vector3 a = middle - 0.25 * along, b = middle + 0.25 * along;
+  QuadMesh before;
+  for (const double radius : { 0.1, 0.3 })
+  {
+    const int id = session_.add(GuideStroke{ { a, b }, 1, radius });
+    const SessionReport& report = session_.update();
+    ASSERT_TRUE(report.status.ok()) << report.status.message;
+    const double angle = meanAngle(quads(), a, b, radius);
+    EXPECT_LT(angle, 12); // of 34 without it
+    EXPECT_NEAR(report.constraints[0].deviation, angle, 1.5);
+    EXPECT_EQ(report.constraints[0].isMet, report.constraints[0].deviation <= 5);
+    EXPECT_FALSE(areSame(quads(), before)) << radius;
+    before = quads();
+    session_.remove(id);
+  }
+}
+
+TEST_F(SessionOnACube, SizesHoldWithinTheirRadius)
+{
+  const Vector3 middle(0.5, 0.5, 1);
+  session_.add(SizeAt{ middle, 0.2, 0.4 });
+  word();
+  double near = 0, all = 0;
+  std::size_t nearCount = 0;
+  for (const std::array<Index, 4>& quad : quads().quads)
+  {
+    const double area = 0.5 *
+      (quads().points[quad[2]] - quads().points[quad[0]])
+        .cross(quads().points[quad[3]] - quads().points[quad[1]])
+        .norm();
+    all += area;
+    if ((quads().points[quad[0]] - middle).norm() < 0.2)
+    {
+      near += area;
+      ++nearCount;
+    }
+  }
+  EXPECT_NEAR(all, 6, 1e-3);
+  ASSERT_GT(nearCount, 0U);
+  const double length = std::sqrt(near / static_cast<double>(nearCount));
+  EXPECT_LT(length, 0.6 * session_.result()->targetEdgeLength);
+}
+
+TEST_F(SessionOnACube, ACycleIsMetInWordsAndNotices)
+{
+  session_.add(Cycle{ { { 0.5, 0.5, 1 }, { 1, 0.5, 0.5 }, { 0.5, 0.5, 0 }, { 0, 0.5, 0.5 } } });
+  EXPECT_LE(word().deviation, 1);
+  for (const std::string& notice : session_.update().notices)
+  {
+    EXPECT_EQ(notice.find("not met"), std::string::npos) << notice;
+  }
 }
 
 TEST(Session, SizesMakeSmallerQuads)

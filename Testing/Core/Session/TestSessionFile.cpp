@@ -3,6 +3,8 @@
 /// Sessions that go to a file and come back.
 #include "SessionHelpers.h"
 
+#include "Session/SessionJson.h"
+
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -86,6 +88,43 @@ TEST_F(SessionFile, ComesBackAsItWas)
   EXPECT_TRUE(loaded.constraints().empty());
 }
 
+/// There irregular vertices had ids of points.
+TEST_F(SessionFile, FilesOfVersionOneAreRead)
+{
+  Session session(dents(), sessionOptions(400));
+  session.update();
+  const IrregularVertex from = session.result()->irregular.front();
+  session.add(IrregularEdit{ IrregularOperation::Move,
+    { from.place, emptiestPlace(session, session.result()->irregular) }, {}, {}, {}, {} });
+  ASSERT_TRUE(session.update().status.ok());
+  session.save(path_);
+  SessionJson json = SessionJson::parse(text());
+  json["version"] = 1;
+  SessionJson& resolved = json["state"]["constraints"][0]["resolved"];
+  const std::vector<Vector3>& points = session.surface().points;
+  for (const char* list : { "before", "changes" })
+  {
+    for (SessionJson& each : resolved[list])
+    {
+      const Vector3 place(each["place"][0], each["place"][1], each["place"][2]);
+      const auto found = std::find(points.begin(), points.end(), place);
+      ASSERT_NE(found, points.end());
+      each["point"] = static_cast<std::size_t>(found - points.begin());
+      if (std::string(list) == "changes")
+      {
+        each.erase("place");
+      }
+    }
+  }
+  write(json.dump());
+  Session loaded = Session::load(path_, dents());
+  ASSERT_TRUE(loaded.update().status.ok());
+  EXPECT_TRUE(areSame(loaded.result()->quads, session.result()->quads));
+  resolved["changes"][0]["point"] = points.size();
+  write(json.dump());
+  EXPECT_NE(messageOfLoad(dents()).find("names point 2562"), std::string::npos);
+}
+
 TEST_F(SessionFile, KeepsEveryBit)
 {
   const double values[] = { 0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -0.0, 123456789.123456789,
@@ -137,7 +176,7 @@ TEST_F(SessionFile, RefusesDamage)
   expectMessage("\"kind\": \"guide\"", "\"kind\": \"spiral\"", "\"spiral\"");
   expectMessage("\"valence\": 5", "\"valence\": 5.5", "whole number");
   expectMessage("\"valence\": 5", "\"valence\": 55", "valence 55");
-  expectMessage("\"version\": 1", "\"version\": 2", "only version 1");
+  expectMessage("\"version\": 2", "\"version\": 3", "only versions 1 and 2");
   expectMessage("\"quads\": 100", "\"quads\": -100", "\"quads\"");
   expectMessage("\"quads\": 100", "\"quats\": 100", "\"quats\"");
   expectMessage("\"next_id\": 3", "\"next_id\": 2", "\"next_id\"");

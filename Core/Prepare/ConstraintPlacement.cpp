@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Prepare/ConstraintPlacement.h"
+
+#include "Base/PlaceText.h"
+#include "Base/Refuse.h"
+#include "Requests/CurveRequests.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille
+{
+
+std::vector<Vector3> courseOf(
+  const CurveRequest& curve, const SurfacePlaces& places, const SurfacePaths& paths)
+{
+  std::vector<Vector3> points;
+  for (const Vector3& p : curve.points)
+  {
+    points.push_back(places.nearestPlace(p).point);
+  }
+  if (curve.kind == CurveKind::Cycle)
+  {
+    points.push_back(points.front());
+  }
+  return paths.through(points).points;
+}
+
+int arrayValenceAt(const SurfaceInput& input, const SurfacePlaces::Place& place, double sameWithin)
+{
+  if (input.targetValences.empty())
+  {
+    return 0;
+  }
+  for (Index i = input.polygonOffsets[place.polygon]; i < input.polygonOffsets[place.polygon + 1];
+       ++i)
+  {
+    const Index p = input.polygonPoints[i];
+    if (input.targetValences[p] != 0 && (input.points[p] - place.point).norm() <= sameWithin)
+    {
+      return input.targetValences[p];
+    }
+  }
+  return 0;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Vector3> ConstraintPlacement::follow(
+  const char* what, const DrawnLine& line, PlacedConstraint& placed) const
+{
+  placed.source = line.source;
+  placed.given = line.points;
+  std::vector<Vector3> points;
+  for (const Vector3& p : line.points)
+  {
+    const Vector3 place = places_.nearestPlace(p).point;
+    placed.distance = std::max(placed.distance, (place - p).norm());
+    if (points.empty() || points.back() != place)
+    {
+      points.push_back(place);
+    }
+  }
+  if (points.size() < 2)
+  {
+    placed.path = points;
+    return points;
+  }
+  SurfacePaths::Path path = paths_.through(points);
+  if (path.tornBehind)
+  {
+    refuse(what, " ", line.source, ": no way on the surface leads from ",
+      placeText(points[*path.tornBehind]), " to ", placeText(points[*path.tornBehind + 1]),
+      "; the places lie on different parts of it: draw one line for each part");
+  }
+  placed.path = std::move(path.points);
+  return points;
+}
+
+void ConstraintPlacement::addFeature(const DrawnLine& line)
+{
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Feature;
+  std::vector<Vector3> points = follow("feature curve", line, placed);
+  if (points.size() < 2)
+  {
+    drop("feature curve", std::move(placed),
+      "has no length and is not followed: all its points have the same nearest place on the "
+      "surface");
+    return;
+  }
+  requests_.features.push_back({ std::move(points) });
+  result_.placed.push_back(std::move(placed));
+}
+
+void ConstraintPlacement::addStroke(const DrawnLine& line, double weight, double radius, int order)
+{
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Stroke;
+  placed.weight = weight;
+  placed.radius = radius;
+  std::vector<Vector3> points = follow("guiding stroke", line, placed);
+  if (points.size() < 2)
+  {
+    drop("guiding stroke", std::move(placed),
+      "has no length and is not followed: give it two different points");
+    return;
+  }
+  placed.guided = guidedAlong(input_, places_, placed.path, weight, radius);
+  requests_.strokes.push_back({ std::move(points), weight, radius, order });
+  result_.placed.push_back(std::move(placed));
+}
+
+void ConstraintPlacement::addValence(std::int64_t source, const Vector3& point, int valence)
+{
+  const SurfacePlaces::Place place = places_.nearestPlace(point);
+  if (valence < kLeastOnBoundary && places_.isOnBoundary(place))
+  {
+    refuse("valence ", valence, " is asked for at ", placeText(place.point),
+      ", on the boundary of the surface, where the least is 3, a corner with one quad: ask for 3 "
+      "or more there, or move the "
+      "point inside");
+  }
+  int asked = arrayValenceAt(input_, place, sameWithin_);
+  bool isThere = false;
+  for (const ValencePlace& other : requests_.valences)
+  {
+    if ((other.place - place.point).norm() <= sameWithin_)
+    {
+      asked = other.valence;
+      isThere = true;
+    }
+  }
+  if (asked != 0 && asked != valence)
+  {
+    refuse("valence point ", source, " asks for valence ", valence, " at ", placeText(place.point),
+      ", where ", asked, " is asked for already: give both the same, or take one away");
+  }
+  if (!isThere)
+  {
+    requests_.valences.push_back({ place.point, valence });
+  }
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Valence;
+  placed.source = source;
+  placed.given = { point };
+  placed.path = { place.point };
+  placed.distance = (place.point - point).norm();
+  placed.valence = valence;
+  result_.placed.push_back(std::move(placed));
+}
+
+Vector3 ConstraintPlacement::addSize(const Vector3& point, double radius, double factor, int order)
+{
+  const Vector3 place = places_.nearestPlace(point).point;
+  requests_.sizes.push_back({ place, radius, factor, order });
+  return place;
+}
+
+void ConstraintPlacement::leaveOutValence(
+  std::int64_t source, const Vector3& point, int valence, const std::string& whyNot)
+{
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Valence;
+  placed.source = source;
+  placed.given = { point };
+  placed.path = { places_.nearestPlace(point).point };
+  placed.valence = valence;
+  placed.whyNot = whyNot;
+  result_.notices.push_back("valence point " + std::to_string(source) + " is left out: " + whyNot);
+  result_.placed.push_back(std::move(placed));
+}
+
+void ConstraintPlacement::drop(const char* what, PlacedConstraint line, const std::string& whyNot)
+{
+  result_.notices.push_back(std::string(what) + " " + std::to_string(line.source) + " " + whyNot);
+  line.whyNot = whyNot;
+  line.path.resize(1, Vector3::Zero());
+  result_.placed.push_back(std::move(line));
+}
+
+void ConstraintPlacement::addCurve(std::int64_t source, CurveKind kind, std::vector<Vector3> points)
+{
+  PlacedConstraint placed;
+  placed.kind = kind == CurveKind::Cycle ? ConstraintKind::Cycle : ConstraintKind::Connection;
+  placed.source = source;
+  placed.given = points;
+  if (kind == CurveKind::Cycle)
+  {
+    if (points.size() > 1 && points.front() == points.back())
+    {
+      points.pop_back();
+    }
+  }
+  placed.curve = input_.curves.size() + curves_.size();
+  const CurveRequest curve{ kind, std::move(points) };
+  checkCurve(curve, static_cast<std::size_t>(source));
+  placed.path = courseOf(curve, places_, paths_);
+  curves_.push_back(curve);
+  result_.placed.push_back(std::move(placed));
+}
+
+void ConstraintPlacement::addTo(SurfaceInput& input) const
+{
+  input.drawn.append(requests_);
+  input.curves.insert(input.curves.end(), curves_.begin(), curves_.end());
+}
+
+} // namespace quadrille

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Requests/GuidedPlaces.h"
+
+#include "Base/Progress.h"
+#include "Mesh/Distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Places along a stroke, and steps to each side of it within its radius, about; fewer where it is short.
+constexpr double kPlacesAlong = 256;
+constexpr double kStepsBeside = 6;
+/// A step along the surface is torn where it leads farther than so many steps.
+constexpr double kTornStep = 3;
+
+/// The normal of a polygon, twice as long as its area is large.
+Vector3 areaNormal(const SurfaceInput& input, Index polygon)
+{
+  const Index begin = input.polygonOffsets[polygon];
+  const Index end = input.polygonOffsets[polygon + 1];
+  const auto corner = [&](Index i) { return input.points[input.polygonPoints[i]]; };
+  Vector3 normal = Vector3::Zero();
+  for (Index i = begin; i < end; ++i)
+  {
+    normal +=
+      (corner(i) - corner(begin)).cross(corner(i + 1 < end ? i + 1 : begin) - corner(begin));
+  }
+  return normal;
+}
+
+Vector3 inPlane(const Vector3& direction, const Vector3& normal)
+{
+  const Vector3 along = direction.stableNormalized();
+  return (along - normal * normal.dot(along)).stableNormalized();
+}
+
+class StrokePlaces
+{
+public:
+  StrokePlaces(const SurfaceInput& input, const SurfacePlaces& places,
+    const std::vector<Vector3>& course, double weight, double radius)
+    : input_(input), places_(places), course_(course), segments_(course), weight_(weight),
+      radius_(radius)
+  {
+    for (std::size_t i = 0; i + 1 < course.size(); ++i)
+    {
+      length_ += (course[i + 1] - course[i]).norm();
+    }
+    step_ = length_ / kPlacesAlong;
+    if (radius > 0)
+    {
+      // As many along as that a place stands for about a square.
+      step_ = std::max(step_, std::min(radius / kStepsBeside, length_ / 2));
+    }
+  }
+
+  std::vector<GuidedPlace> run()
+  {
+    double passed = 0.5 * step_; // of the segment and those before it, up to the next place
+    for (std::size_t i = 0; i + 1 < course_.size(); ++i)
+    {
+      const Vector3 along = course_[i + 1] - course_[i];
+      const double length = along.norm();
+      for (; length > 0 && passed <= length; passed += step_)
+      {
+        pollNowAndThen(found_.size());
+        addAcross(course_[i] + passed / length * along, along / length);
+      }
+      passed -= length;
+    }
+    if (radius_ > 0)
+    {
+      addBeyond(course_.front(), course_.front() - course_[1]);
+      addBeyond(course_.back(), course_.back() - course_[course_.size() - 2]);
+    }
+    return std::move(found_);
+  }
+
+private:
+  /// At a place of the course, and to both sides of it.
+  void addAcross(const Vector3& p, const Vector3& along)
+  {
+    const SurfacePlaces::Place at = places_.nearestPlace(p);
+    add(at, along);
+    if (radius_ > 0)
+    {
+      const Vector3 aside = areaNormal(input_, at.polygon).stableNormalized().cross(along);
+      march(at, aside, along);
+      march(at, -aside, along);
+    }
+  }
+  /// Beyond an end of the course.
+  void addBeyond(const Vector3& end, const Vector3& out)
+  {
+    SurfacePlaces::Place at = places_.nearestPlace(end);
+    Vector3 along = out;
+    for (double way = step_; way <= radius_; way += step_)
+    {
+      const SurfacePlaces::Place next = stepFrom(at, along);
+      if ((next.point - at.point).norm() > kTornStep * step_ ||
+        segments_.at(next.point).distance > radius_ || next.point == at.point)
+      {
+        return;
+      }
+      along = inPlane(next.point - at.point, areaNormal(input_, next.polygon).stableNormalized());
+      at = next;
+      addAcross(at.point, along);
+    }
+  }
+  SurfacePlaces::Place stepFrom(const SurfacePlaces::Place& at, const Vector3& direction) const
+  {
+    const Vector3 normal = areaNormal(input_, at.polygon).stableNormalized();
+    return places_.nearestPlace(at.point + step_ * inPlane(direction, normal));
+  }
+  void march(SurfacePlaces::Place at, Vector3 direction, const Vector3& along)
+  {
+    const Vector3 begin = at.point;
+    for (double way = step_; way <= radius_; way += step_)
+    {
+      const SurfacePlaces::Place next = stepFrom(at, direction);
+      const double moved = (next.point - at.point).norm();
+      // Near the boundary nearest places come back.
+      if (!(moved > 0.5 * step_) || moved > kTornStep * step_)
+      {
+        return;
+      }
+      const NearestSegments::Place nearest = segments_.at(next.point);
+      const double distance = nearest.distance;
+      if (distance > radius_)
+      {
+        return;
+      }
+      // What is nearer to another part of the course comes from there.
+      constexpr double kAtEnd = 1e-9;
+      const bool isEnd = (nearest.point - course_.front()).norm() <= kAtEnd * length_ ||
+        (nearest.point - course_.back()).norm() <= kAtEnd * length_;
+      if (!isEnd && (nearest.point - begin).norm() > 2 * step_)
+      {
+        return;
+      }
+      direction = next.point - at.point;
+      at = next;
+      add(at, isEnd ? along : nearest.direction);
+    }
+  }
+  void add(const SurfacePlaces::Place& at, const Vector3& direction)
+  {
+    GuidedPlace guided;
+    guided.polygon = at.polygon;
+    guided.place = at.point;
+    guided.normal = areaNormal(input_, at.polygon).stableNormalized();
+    guided.direction = inPlane(direction, guided.normal);
+    guided.area = step_ * step_;
+    guided.weight = weight_;
+    found_.push_back(guided);
+  }
+
+  const SurfaceInput& input_;
+  const SurfacePlaces& places_;
+  const std::vector<Vector3>& course_;
+  NearestSegments segments_;
+  double weight_, radius_;
+  double length_ = 0, step_ = 0;
+  std::vector<GuidedPlace> found_;
+};
+
+} // namespace
+
+GuidedPlace guidedPolygon(
+  const SurfaceInput& input, Index polygon, const Vector3& direction, double weight)
+{
+  const Index begin = input.polygonOffsets[polygon];
+  const Index end = input.polygonOffsets[polygon + 1];
+  GuidedPlace guided;
+  guided.polygon = polygon;
+  guided.weight = weight;
+  for (Index i = begin; i < end; ++i)
+  {
+    guided.place += input.points[input.polygonPoints[i]] / static_cast<double>(end - begin);
+  }
+  const Vector3 normal = areaNormal(input, polygon);
+  guided.area = 0.5 * normal.norm();
+  guided.normal = normal.stableNormalized();
+  guided.direction = inPlane(direction, guided.normal);
+  return guided;
+}
+
+std::vector<GuidedPlace> guidedAlong(const SurfaceInput& input, const SurfacePlaces& places,
+  const std::vector<Vector3>& course, double weight, double radius)
+{
+  return StrokePlaces(input, places, course, weight, radius).run();
+}
+
+//------------------------------------------------------------------------------
+NearestSegments::NearestSegments(const std::vector<Vector3>& line)
+{
+  std::vector<BoxTree::Box> boxes;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+  {
+    if (line[i] != line[i + 1])
+    {
+      segments_.push_back({ line[i], line[i + 1] });
+    }
+  }
+  if (segments_.empty())
+  {
+    segments_.push_back({ line.front(), line.front() });
+  }
+  for (const auto& [a, b] : segments_)
+  {
+    boxes.push_back({ a.cwiseMin(b), a.cwiseMax(b) });
+  }
+  tree_ = BoxTree(boxes, 1);
+}
+
+NearestSegments::Place NearestSegments::at(const Vector3& p) const
+{
+  const Index nearest = tree_.nearest(p,
+    [&](Index i)
+    {
+      const double distance = distanceToSegment(p, segments_[i][0], segments_[i][1]);
+      return distance * distance;
+    });
+  const auto& [a, b] = segments_[nearest];
+  const double squared = (b - a).squaredNorm();
+  const double t = squared > 0 ? std::clamp((p - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
+  Place place;
+  place.point = a + t * (b - a);
+  place.distance = (p - place.point).norm();
+  place.direction = (b - a).stableNormalized();
+  return place;
+}
+
+} // namespace quadrille
