@@ -440,10 +440,7 @@ private:
   }
 
   /// On the triangles as they are to stay, unlike the other requests.
-  void placeHeld()
-  {
-    surface_.sectorRequests = placeHeldVertices(input_, surface_);
-  }
+  void placeHeld() { surface_.sectorRequests = placeHeldVertices(input_, surface_); }
 
   /// Triangles that refinement left as they were are shared, and count once.
   void keep(const std::shared_ptr<StoredPrepared>& prepared)
