@@ -164,12 +164,6 @@ struct StrokeRequest
   }
 };
 
-/// Where feature curves and strokes run on a surface, from point to point; of each request in their order.
-struct DrawnPaths
-{
-  std::vector<std::vector<Vector3>> features, strokes;
-};
-
 /// What a stroke asks of a face of a surface.
 struct StrokeFace
 {
@@ -255,18 +249,17 @@ struct DrawnRequests
 /// What a prepared surface was asked for. The finest level does not depend on it, so it is not part of its hash.
 struct SurfaceRequests
 {
-  std::vector<PolygonGuide> polygonGuides;       ///< ascending by polygon; see surfaceGuides
-  std::vector<ValenceRequest> valenceRequests;   ///< ascending by vertex, one a vertex
-  std::size_t unusedValences = 0;                ///< requests of points that no face uses
-  std::vector<StrokeRequest> strokes;            ///< as they were given, in the frame
-  std::vector<StrokeFace> strokeFaces;           ///< ascending by face; see placeStrokes
-  std::vector<std::vector<Vector3>> strokePaths; ///< where the strokes run on the surface
-  std::vector<CurveRequest> curves;              ///< as they were given, in the frame
-  bool regularElsewhere = false;                 ///< as it was given
-  std::vector<SectorRequest> sectorRequests;     ///< ascending by vertex
-  bool regularOnFeatures = false;                ///< as it was given
-  std::vector<SeamRequest> seams;                ///< as they were given, in the frame
-  std::vector<StraightRequest> straight;         ///< as they were given, in the frame
+  std::vector<PolygonGuide> polygonGuides;     ///< ascending by polygon; see surfaceGuides
+  std::vector<ValenceRequest> valenceRequests; ///< ascending by vertex, one a vertex
+  std::size_t unusedValences = 0;              ///< requests of points that no face uses
+  std::vector<StrokeRequest> strokes;          ///< as they were given, in the frame
+  std::vector<StrokeFace> strokeFaces;         ///< ascending by face; see placeStrokes
+  std::vector<CurveRequest> curves;            ///< as they were given, in the frame
+  bool regularElsewhere = false;               ///< as it was given
+  std::vector<SectorRequest> sectorRequests;   ///< ascending by vertex
+  bool regularOnFeatures = false;              ///< as it was given
+  std::vector<SeamRequest> seams;              ///< as they were given, in the frame
+  std::vector<StraightRequest> straight;       ///< as they were given, in the frame
 };
 
 } // namespace quadrille

@@ -126,9 +126,6 @@ struct PreparedSurface : SurfaceRequests
   SharedArray<Index> refinedEntry;
   SharedArray<std::array<std::array<double, 3>, 3>> cornerWeights; ///< [corner][source corner]
 
-  std::vector<std::vector<Vector3>>
-    featurePaths; ///< where features that were drawn run on the surface
-
   /// Set by who wants to know what becomes of the elements; orderSurface keeps it.
   std::optional<NamesBefore> namesBefore;
 

@@ -42,19 +42,6 @@ void noteAdded(
   }
 }
 
-std::vector<std::vector<Vector3>> toUser(
-  std::vector<std::vector<Vector3>> paths, const Frame& frame)
-{
-  for (std::vector<Vector3>& path : paths)
-  {
-    for (Vector3& p : path)
-    {
-      p = frame.toUser(p);
-    }
-  }
-  return paths;
-}
-
 } // namespace
 
 bool changesSurface(const DrawnRequests& drawn)
@@ -82,7 +69,7 @@ void drawOn(PreparedSurface& surface, const SurfaceInput& input, double edgeLeng
 {
   const Index before = surface.mesh.vertexCount();
   const InsertionOptions insertion{ edgeLength, threads };
-  surface.featurePaths = insertFeatures(surface, input.drawn.features, insertion, notices);
+  insertFeatures(surface, input.drawn.features, insertion, notices);
   insertSizes(surface, input.drawn.sizes, sizingOrdersOf(input.sizingOrders, surface), insertion);
   noteAdded(surface, before, threads, notices);
 }
@@ -107,11 +94,6 @@ bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& val
   }
   noteAdded(surface, before, threads, notices);
   return true;
-}
-
-DrawnPaths drawnPathsOf(const PreparedSurface& surface, const Frame& frame)
-{
-  return { toUser(surface.featurePaths, frame), toUser(surface.strokePaths, frame) };
 }
 
 } // namespace quadrille

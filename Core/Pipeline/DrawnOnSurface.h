@@ -5,7 +5,6 @@
 
 #include "Mesh/Surface.h"
 #include "Pipeline/ResultStore.h"
-#include "Prepare/Frame.h"
 
 #include <string>
 #include <vector>
@@ -26,8 +25,5 @@ void drawOn(PreparedSurface& surface, const SurfaceInput& input, double edgeLeng
 /// Valences at places, on the triangles as they are to stay. Whether these have changed.
 bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
   double edgeLength, int threads, std::vector<std::string>& notices);
-
-/// Where the features and strokes of a surface run, in units of the user.
-DrawnPaths drawnPathsOf(const PreparedSurface& surface, const Frame& frame);
 
 } // namespace quadrille

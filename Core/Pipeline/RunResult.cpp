@@ -4,7 +4,6 @@
 
 #include "Base/Clock.h"
 #include "GridMap/MapShape.h"
-#include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/Notices.h"
 
@@ -213,7 +212,6 @@ void putOnUserSurface(SizedSurface& sized, const FramedInput& framed, const Reme
   bool quadsAlone, RemeshResult& result)
 {
   result.frame = framed.frame;
-  result.drawnPaths = drawnPathsOf(*sized.surface, framed.frame);
   if (options.preview)
   {
     leaveFrameAlone(result, framed.frame);

@@ -259,9 +259,7 @@ private:
 
 void placeStrokes(PreparedSurface& surface, int threads)
 {
-  PlacedStrokes placed = strokesOnMesh(surface.mesh, surface.strokes, threads);
-  surface.strokeFaces = std::move(placed.faces);
-  surface.strokePaths = std::move(placed.paths);
+  surface.strokeFaces = facesOfStrokes(surface.mesh, surface.strokes, threads);
 }
 
 SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)

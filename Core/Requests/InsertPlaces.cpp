@@ -290,7 +290,7 @@ private:
       const Vector3 along = mesh_.edgeVector(edge);
       const double share =
         (point - mesh_.position[mesh_.origin[edge]]).dot(along) / along.squaredNorm();
-      return split(edge, std::clamp(share, kLeastShare, 1 - kLeastShare));
+      return split(edge, std::clamp(share, kLeastShareOfEdge, 1 - kLeastShareOfEdge));
     }
     const Index first = mesh_.faceCount();
     const Index v = splitFace(surface_, f, weightsIn(f, point));
@@ -377,7 +377,7 @@ private:
     }
   }
 
-  static constexpr double kLeastShare = 1e-9;
+  static constexpr double kLeastShareOfEdge = 1e-9;
 
   PreparedSurface& surface_;
   Mesh& mesh_;

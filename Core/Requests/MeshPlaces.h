@@ -48,8 +48,8 @@ struct MeshPath
 
 /// The path from one place to another: straight in each face and, where faces are laid out side by side in the plane,
 /// from face to face. It begins with the faces along which the straight segment in space is nearest, found by the A*
-/// algorithm [Hart, Nilsson, Raphael 1968]; in them the path is the shortest one [Lee, Preparata 1984], and they give way
-/// where another side of a vertex makes it shorter. None where the places are on different components.
+/// algorithm [Hart, Nilsson, Raphael 1968]; in them it is the shortest one [Lee, Preparata 1984], and they give way
+/// where another side of a vertex makes it shorter [Xin, Wang 2007]. None where the places are on different components.
 std::optional<MeshPath> pathOnMesh(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to);
 
 } // namespace quadrille

@@ -123,38 +123,20 @@ std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, 
   return directions;
 }
 
-std::vector<Vector3> pathOf(const PathParts& parts)
-{
-  std::vector<Vector3> path;
-  for (const PathPart& part : parts)
-  {
-    if (path.empty() || path.back() != part.from)
-    {
-      path.push_back(part.from);
-    }
-    if (part.to != part.from)
-    {
-      path.push_back(part.to);
-    }
-  }
-  return path;
-}
-
 } // namespace
 
-PlacedStrokes strokesOnMesh(
+std::vector<StrokeFace> facesOfStrokes(
   const Mesh& mesh, const std::vector<StrokeRequest>& strokes, int threads)
 {
-  PlacedStrokes placed;
+  std::vector<StrokeFace> result;
   if (strokes.empty())
   {
-    return placed;
+    return result;
   }
   const std::vector<PathParts> parts = partsOf(mesh, strokes, threads);
   std::map<Index, StrokeFace> faces;
   for (std::size_t k = 0; k < strokes.size(); ++k)
   {
-    placed.paths.push_back(pathOf(parts[k]));
     for (const auto& [face, direction] : directionsOf(mesh, parts[k], strokes[k].radius))
     {
       StrokeFace& guided = faces.try_emplace(face).first->second;
@@ -168,10 +150,10 @@ PlacedStrokes strokesOnMesh(
   {
     if (!guided.direction.isZero(0))
     {
-      placed.faces.push_back(guided);
+      result.push_back(guided);
     }
   }
-  return placed;
+  return result;
 }
 
 } // namespace quadrille

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Where strokes run on a surface, and which faces they guide.
+/// Which faces of a surface strokes guide.
 #pragma once
 
 #include "Mesh/Surface.h"
@@ -10,18 +10,11 @@
 namespace quadrille
 {
 
-struct PlacedStrokes
-{
-  /// Of each stroke: straight in each face, from one of its points to the next, see pathOnMesh. A part between two
-  /// points on different components is left out.
-  std::vector<std::vector<Vector3>> paths;
-  /// The faces that strokes cross, and those within their radii, each with the direction of the nearest part of the
-  /// path; ascending by face. Where strokes overlap that of the highest order counts, then the later one.
-  std::vector<StrokeFace> faces;
-};
-
-/// threads: 0: all; the result does not depend on it.
-PlacedStrokes strokesOnMesh(
+/// The faces that strokes cross, and those within their radii, each with the direction of the nearest part of the path,
+/// which is straight in each face from one of the stroke's points to the next, see pathOnMesh; ascending by face. A part
+/// between two points on different components is left out. Where strokes overlap that of the highest order counts, then
+/// the later one. threads: 0: all; the result does not depend on it.
+std::vector<StrokeFace> facesOfStrokes(
   const Mesh& mesh, const std::vector<StrokeRequest>& strokes, int threads);
 
 } // namespace quadrille

@@ -26,9 +26,9 @@ double areaOfPolygons(const SurfaceInput& input);
 /// polygon uses is not finite.
 void requirePolygons(const SurfaceInput& input);
 
-/// The nearest place on the polygons; of places that are equally near, that on the polygon with the lowest id. The first
-/// questions look at all triangles, further ones make a tree: that of two million triangles takes a tenth of a run. Not
-/// for several threads at once.
+/// The nearest place on the polygons; of places that are equally near, that on the polygon with the lowest id. The
+/// first questions look at all triangles, further ones make a tree: that of two million triangles takes a tenth of a
+/// run. Not for several threads at once.
 class SurfacePlaces
 {
 public:

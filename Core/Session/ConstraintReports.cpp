@@ -334,7 +334,7 @@ ConstraintMeasure SessionJudge::operator()(const SizeAt& at)
 /// At places spread over the polygons, about one a quad.
 ConstraintMeasure SessionJudge::operator()(const SizeRegion& region)
 {
-  constexpr double kMostSteps = 16; // along a triangle's side
+  constexpr double kStepsAlongSide = 16; // along a triangle's side
   std::vector<WeightedPlace> places;
   for (const Index polygon : region.polygons)
   {
@@ -346,7 +346,7 @@ ConstraintMeasure SessionJudge::operator()(const SizeRegion& region)
       const Vector3 v = surface_.points[surface_.polygonPoints[k]] - a;
       const double longest = std::max({ u.norm(), v.norm(), (v - u).norm() });
       const double wanted = longest / (region.factor * madeEdgeLength_);
-      const int steps = static_cast<int>(std::ceil(std::clamp(wanted, 1.0, kMostSteps)));
+      const int steps = static_cast<int>(std::ceil(std::clamp(wanted, 1.0, kStepsAlongSide)));
       const double area = 0.5 * u.cross(v).norm() / (steps * steps);
       for (int i = 0; i < steps; ++i)
       {

@@ -14,7 +14,7 @@ namespace
 {
 
 /// So often a segment of a line is halved towards the cut that it crosses.
-constexpr int kHalvings = 48;
+constexpr int kHalvingsToCut = 48;
 /// Of a point on the part's border beyond its quads: one of valence n + 2 has n quads there.
 constexpr int kBesideQuads = 2;
 
@@ -29,7 +29,7 @@ struct PieceInPart
 std::pair<Vector3, Vector3> crossingOf(const PartTask& task, Vector3 inside, Vector3 beyond)
 {
   const int steps = task.stepsToPart(inside);
-  for (int i = 0; i < kHalvings; ++i)
+  for (int i = 0; i < kHalvingsToCut; ++i)
   {
     const Vector3 middle = 0.5 * (inside + beyond);
     (task.stepsToPart(middle) == steps ? inside : beyond) = middle;

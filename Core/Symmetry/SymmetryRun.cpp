@@ -133,7 +133,6 @@ SymmetricResult SymmetryRun::run(SurfaceInput& input)
   { all.insert(all.begin(), first.begin(), first.end()); };
   putBefore(result.notices, told_.notices);
   putBefore(result.reused, told_.reused);
-  result.drawnPaths = {}; // those of the part are pieces, and images of pieces
   result.stages = told_.laps.all();
   return std::move(made_);
 }
