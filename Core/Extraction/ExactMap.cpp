@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/ExactMap.h"
 
-#include "Base/Lists.h"
 #include "Base/Parallel.h"
 
 #include <algorithm>
@@ -71,45 +70,57 @@ void checkTransition(const ExactMap& map, Index h, MapCheck& check)
 void checkConstrained(const ExactMap& map, Index h, MapCheck& check)
 {
   const FixedVec2 e = map.edge(h);
-  if (!map.isOnIsoline(h))
+  const bool onU = e.v == 0 && isInteger(map.at(h).v);
+  const bool onV = e.u == 0 && isInteger(map.at(h).u);
+  if (!onU && !onV)
   {
     note(check, kOffIsoline, Mesh::face(h));
   }
   check.constrainedLength += toDouble(std::abs(e.u) + std::abs(e.v));
 }
 
-void checkCorners(const ExactMap& map, Index f, MapCheck& check)
+void checkRange(const ExactMap& map, Index begin, Index end, MapCheck& check)
 {
-  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  for (Index f = begin; f < end; ++f)
   {
-    if (!inRange(map.at(h)))
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
-      check.outOfRange = std::min(check.outOfRange, h);
+      if (!inRange(map.at(h)))
+      {
+        check.outOfRange = std::min(check.outOfRange, h);
+      }
     }
-  }
-  if (check.outOfRange == kInvalidIndex)
-  {
+    if (check.outOfRange != kInvalidIndex)
+    {
+      return;
+    }
     checkFace(map, f, check);
   }
 }
 
-/// The edges of a face, each by its lower half-edge.
-void checkEdges(const ExactMap& map, Index f, bool isCertified, MapCheck& check)
+void checkTransitions(const ExactMap& map, Index begin, Index end, MapCheck& check)
 {
-  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  for (Index h = 3 * begin; h < 3 * end; ++h)
   {
-    const bool isInner = !map.mesh.isBoundary(h);
-    if (isInner && map.mesh.twin[h] < h)
-    {
-      continue;
-    }
-    if (isInner && !isCertified)
+    const Index g = map.mesh.twin[h];
+    if (g != kInvalidIndex && g > h)
     {
       checkTransition(map, h, check);
     }
+  }
+}
+
+void checkCurves(const ExactMap& map, Index begin, Index end, MapCheck& check)
+{
+  for (Index h = 3 * begin; h < 3 * end; ++h)
+  {
     if (map.mesh.isConstrained(h))
     {
-      checkConstrained(map, h, check);
+      const Index g = map.mesh.twin[h];
+      if (g == kInvalidIndex || g > h)
+      {
+        checkConstrained(map, h, check);
+      }
     }
   }
 }
@@ -135,19 +146,14 @@ void merge(MapCheck& into, const MapCheck& from)
 
 /// Runs a check over chunks of faces and merges in the order of the chunks.
 template <typename Body>
-void overFaces(Index faces, int threads, MapCheck& whole, const Body& body)
+MapCheck overFaces(Index faces, int threads, const Body& body)
 {
-  for (const MapCheck& part : parallelParts<MapCheck>(faces, kMapChunk, threads,
-         [&](std::size_t begin, std::size_t end, MapCheck&check)
-         {
-           for (std::size_t f = begin; f < end && check.outOfRange == kInvalidIndex; ++f)
-           {
-             body(static_cast<Index>(f), check);
-           }
-         }))
+  MapCheck whole;
+  for (const MapCheck& part : parallelParts<MapCheck>(faces, kMapChunk, threads, body))
   {
     merge(whole, part);
   }
+  return whole;
 }
 
 } // namespace
@@ -155,12 +161,20 @@ void overFaces(Index faces, int threads, MapCheck& whole, const Body& body)
 MapCheck checkMap(const ExactMap& map, bool isCertified, int threads)
 {
   const Index faces = map.mesh.faceCount();
-  MapCheck whole;
-  overFaces(faces, threads, whole, [&](Index f, MapCheck& part) { checkCorners(map, f, part); });
+  MapCheck whole = overFaces(faces, threads,
+    [&](Index begin, Index end, MapCheck& part) { checkRange(map, begin, end, part); });
   if (whole.outOfRange == kInvalidIndex)
   {
-    overFaces(faces, threads, whole,
-      [&](Index f, MapCheck& part) { checkEdges(map, f, isCertified, part); });
+    merge(whole,
+      overFaces(faces, threads,
+        [&](Index begin, Index end, MapCheck& part)
+        {
+          if (!isCertified)
+          {
+            checkTransitions(map, begin, end, part);
+          }
+          checkCurves(map, begin, end, part);
+        }));
   }
   return whole;
 }
@@ -178,9 +192,12 @@ std::string MapCheck::text() const
       continue;
     }
     result += (result.empty() ? "" : ", ") + std::to_string(count[kind]) + " " + kNames[kind];
-    result += " (faces " +
-      joined(faces[kind], kNamedFaces, [](Index f) { return std::to_string(f); }) +
-      (count[kind] > faces[kind].size() ? ", ...)" : ")");
+    std::string list;
+    for (const Index f : faces[kind])
+    {
+      list += (list.empty() ? "" : ", ") + std::to_string(f);
+    }
+    result += " (faces " + list + (count[kind] > faces[kind].size() ? ", ...)" : ")");
   }
   return result;
 }

@@ -76,66 +76,94 @@ bool follow(const ExactMap& map, Walk& walk, std::size_t maximumSteps, std::size
   return false;
 }
 
-/// In a valid map the side of the cell beyond the isoline from q to `end` runs back between the ports beside these:
-///
-///       port  |        | next              . it comes from the one after next and leads to the one
-///        q ---+--------+--- end            . before port, counterclockwise
-///      before |        | after
-void setOtherSide(
-  const GridVertices& grid, Index q, Index port, Index end, Index next, CellCorners& cells)
+/// Traces the ports of a range of grid vertices.
+template <bool kFolded>
+class RangeTracer
 {
-  const std::optional<Index> before = grid.portBefore(q, port);
-  const std::optional<Index> after = grid.portAfter(end, next);
-  if (before && after)
+public:
+  RangeTracer(const ExactMap& map, const GridVertices& grid, const TracingOptions& options,
+    std::size_t begin, std::size_t end, CellCorners& cells)
+    : map_(map), grid_(grid), options_(options), begin_(begin), end_(end), cells_(cells)
   {
-    cells.next[*after] = *before;
   }
-}
 
-/// Traces the ports of a range of grid vertices. Returns the number of triangles that the walks crossed.
+  /// Returns the number of triangles that the walks crossed.
+  std::size_t traceVertex(Index q)
+  {
+    std::size_t steps = 0;
+    Index port = grid_.vertices()[q].firstPort;
+    grid_.forEachSector(q,
+      [&](const Sector& sector)
+      {
+        for (int i = 0; i < sector.count; ++i, ++port)
+        {
+          cells_.vertex[port] = q;
+          if constexpr (kFolded)
+          {
+            cells_.orientation[port] = static_cast<std::int8_t>(sector.orientation);
+          }
+          if (cells_.next[port] == kInvalidIndex)
+          {
+            trace(q, port, startOf(sector, sector.firstDirection + i), steps);
+          }
+        }
+      });
+    return steps;
+  }
+
+private:
+  void trace(Index q, Index port, Walk walk, std::size_t& steps)
+  {
+    if (!follow<kFolded>(map_, walk, options_.maximumSteps, steps))
+    {
+      return;
+    }
+    const std::optional<Index> end = grid_.find(walk.face, walk.target);
+    const std::optional<Index> next =
+      end ? grid_.findPort(*end, walk.face, walk.target, walk.arrivalPort()) : std::nullopt;
+    if (!next)
+    {
+      return;
+    }
+    cells_.next[port] = *next;
+    if (options_.valid && begin_ <= *end && *end < end_)
+    {
+      setOtherSide(q, port, *end, *next);
+    }
+  }
+
+  /// In a valid map the side of the cell beyond the isoline runs back between the ports beside these:
+  ///
+  ///       port  |        | next              . it comes from the one after next and leads to the one
+  ///        q ---+--------+--- end            . before port, counterclockwise
+  ///      before |        | after
+  void setOtherSide(Index q, Index port, Index end, Index next)
+  {
+    const std::optional<Index> before = grid_.portBefore(q, port);
+    const std::optional<Index> after = grid_.portAfter(end, next);
+    if (before && after)
+    {
+      cells_.next[*after] = *before;
+    }
+  }
+
+  const ExactMap& map_;
+  const GridVertices& grid_;
+  const TracingOptions& options_;
+  std::size_t begin_;
+  std::size_t end_;
+  CellCorners& cells_;
+};
+
 template <bool kFolded>
 std::size_t traceRange(const ExactMap& map, const GridVertices& grid, const TracingOptions& options,
   std::size_t begin, std::size_t end, std::size_t maximumSteps, CellCorners& cells)
 {
+  RangeTracer<kFolded> tracer(map, grid, options, begin, end, cells);
   std::size_t steps = 0;
-  const auto trace = [&](Index q, Index port, Walk walk)
+  for (std::size_t q = begin; q < end && steps <= maximumSteps; ++q)
   {
-    if (!follow<kFolded>(map, walk, options.maximumSteps, steps))
-    {
-      return;
-    }
-    const std::optional<Index> last = grid.find(walk.face, walk.target);
-    const std::optional<Index> next =
-      last ? grid.findPort(*last, walk.face, walk.target, walk.arrivalPort()) : std::nullopt;
-    if (next)
-    {
-      cells.next[port] = *next;
-      if (options.valid && begin <= *last && *last < end)
-      {
-        setOtherSide(grid, q, port, *last, *next, cells);
-      }
-    }
-  };
-  for (std::size_t i = begin; i < end && steps <= maximumSteps; ++i)
-  {
-    const Index q = static_cast<Index>(i);
-    Index port = grid.vertices()[q].firstPort;
-    grid.forEachSector(q,
-      [&](const Sector& sector)
-      {
-        for (int k = 0; k < sector.count; ++k, ++port)
-        {
-          cells.vertex[port] = q;
-          if constexpr (kFolded)
-          {
-            cells.orientation[port] = static_cast<std::int8_t>(sector.orientation);
-          }
-          if (cells.next[port] == kInvalidIndex)
-          {
-            trace(q, port, startOf(sector, sector.firstDirection + k));
-          }
-        }
-      });
+    steps += tracer.traceVertex(static_cast<Index>(q));
   }
   return steps;
 }

@@ -149,35 +149,62 @@ private:
   template <typename Visitor>
   void visitSectors(const GridVertex& vertex, const Visitor& visit) const
   {
-    const auto offer = [&visit](const Sector& sector)
+    if (vertex.kind == Site::Face)
     {
+      visitFace(vertex, visit);
+    }
+    else if (vertex.kind == Site::Edge)
+    {
+      visitEdge(vertex, visit);
+    }
+    else
+    {
+      visitFan(vertex, visit);
+    }
+  }
+
+  template <typename Visitor>
+  void visitFace(const GridVertex& vertex, const Visitor& visit) const
+  {
+    const Sector sector = faceSector(vertex);
+    if (sector.count > 0)
+    {
+      visit(sector);
+    }
+  }
+
+  template <typename Visitor>
+  void visitEdge(const GridVertex& vertex, const Visitor& visit) const
+  {
+    const Sector mine = edgeSector(vertex.site, vertex.uv);
+    if (mine.count > 0)
+    {
+      visit(mine);
+    }
+    Transition t;
+    if (map_.transition(vertex.site, t))
+    {
+      const Sector other = edgeSector(map_.mesh.twin[vertex.site], t.apply(vertex.uv));
+      if (other.count > 0)
+      {
+        visit(other);
+      }
+    }
+  }
+
+  template <typename Visitor>
+  void visitFan(const GridVertex& vertex, const Visitor& visit) const
+  {
+    Index h = vertex.site;
+    do
+    {
+      const Sector sector = cornerSector(h);
       if (sector.count > 0)
       {
         visit(sector);
       }
-    };
-    Index h = vertex.site;
-    if (vertex.kind == Site::Face)
-    {
-      offer(faceSector(vertex));
-    }
-    else if (vertex.kind == Site::Edge)
-    {
-      offer(edgeSector(h, vertex.uv));
-      Transition t;
-      if (map_.transition(h, t))
-      {
-        offer(edgeSector(map_.mesh.twin[h], t.apply(vertex.uv)));
-      }
-    }
-    else
-    {
-      do
-      {
-        offer(cornerSector(h));
-        h = map_.mesh.rotateCounterclockwise(h);
-      } while (h != vertex.site && h != kInvalidIndex);
-    }
+      h = map_.mesh.rotateCounterclockwise(h);
+    } while (h != vertex.site && h != kInvalidIndex);
   }
 
   ExactMap map_;

@@ -68,8 +68,9 @@ void Levels::decimate(
 {
   letGo(); // before the new ones take their memory
   ++decimations_;
-  held_ = std::make_shared<StoredLevels>();
-  held_->levels = std::make_unique<Redecimation>(mesh, surface->hash, options);
+  auto made = std::make_shared<StoredLevels>(); // what is stopped on the way is not held
+  made->levels = std::make_unique<Redecimation>(mesh, surface->hash, options);
+  held_ = std::move(made);
   heldKey_ = key;
   releaseFreedMemory();
   const Hierarchy& hierarchy = held_->levels->hierarchy();
