@@ -5,6 +5,7 @@
 
 #include "Prepare/SurfacePaths.h"
 #include "Requests/DrawnConstraints.h"
+#include "Requests/InsertPlaces.h"
 #include "Requests/SurfacePlaces.h"
 
 #include <cstdint>
@@ -80,8 +81,6 @@ std::vector<Vector3> courseOf(
 
 /// Quads' edge lengths within which two places are one vertex.
 constexpr double kOnePlace = 0.01;
-/// The same from a place to the vertex that a run takes for it where triangles are small, see insertValences.
-constexpr double kTakenVertex = 0.125;
 
 /// The valence that the array asks for at a place; 0: none.
 int arrayValenceAt(const SurfaceInput& input, const SurfacePlaces::Place& place, double sameWithin);

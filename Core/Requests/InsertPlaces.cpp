@@ -23,8 +23,8 @@ namespace
 
 /// Points nearer to a vertex, or to an edge, take it, in s.
 constexpr double kTaken = 0.01;
-/// Of a mesh with edges below this, in s, the vertices that are there will do: the nearest one is within a tenth of s.
-constexpr double kFineEnough = 0.2;
+/// A path takes a vertex in place of a point of a shorter edge than this, in s: it is straight to a tenth of s.
+constexpr double kFineForPaths = 0.2;
 /// Edges that come so near to a size's place, in radii, are made short against the radius.
 constexpr double kShareOfRadius = 0.5;
 /// From there on they may be so long against their distance, over so many s: within these sizes grow to any other.
@@ -230,7 +230,7 @@ private:
     {
       longest = std::max(longest, mesh_.edgeVector(h).norm());
     }
-    return longest < kFineEnough * s_;
+    return longest < kFineForPlaces * s_;
   }
 
   /// Of the faces that the one where the place was found has been split into.
@@ -315,7 +315,7 @@ private:
     const double length = mesh_.edgeVector(h).norm();
     const double before = crossing.share * length;
     const double after = length - before;
-    if (std::min(before, after) <= kTaken * s_ || length < kFineEnough * s_)
+    if (std::min(before, after) <= kTaken * s_ || length < kFineForPaths * s_)
     {
       return take(before <= after ? h : Mesh::next(h));
     }

@@ -12,6 +12,11 @@
 namespace quadrille
 {
 
+/// Where the edges of a face are below this, in s, its points take the nearest of its vertices, which is not farther
+/// away than kTakenVertex: quads do not tell, and the surface, with its levels, stays as it is.
+constexpr double kFineForPlaces = 0.35;
+constexpr double kTakenVertex = 0.21;
+
 struct InsertionOptions
 {
   double edgeLength = 0; ///< s: of the quads, in units of the mesh; > 0

@@ -4,6 +4,7 @@
 #include "Symmetry/Symmetry.h"
 
 #include "Evaluation/QuadQuality.h"
+#include "Mesh/Distance.h"
 #include "MeshInput.h"
 #include "SymmetricQuads.h"
 #include "Symmetry/PartRequests.h"
@@ -227,6 +228,63 @@ TEST(Symmetry, ValencesOfTheOtherSideAreMirrored)
   const Index p = nearestPoint(quads.points, input.points[inPlane]);
   EXPECT_EQ(made.mirrorPoint[p], p);
   EXPECT_EQ(quads.valence[p], 6);
+}
+
+/// Places lie inside of faces that are larger than quads; the line crosses the plane.
+TEST(Symmetry, WhatIsDrawnIsMirrored)
+{
+  SurfaceInput input = toInput(unitCube(3));
+  const Vector3 behind(0.21, 0.33, 1);
+  input.drawn.valences = { { behind, 5 }, { { 0.4, 0.6, 0 }, 5 } };
+  input.drawn.features = { { { { 0.25, 0.1, 0 }, { 0.7, 0.27, 0 } } } };
+  input.drawn.sizes = { { { 0, 0.5, 0.5 }, 0.15, 0.5, 0 } };
+  RemeshOptions options = aboutQuads(1500);
+  options.featureAngle.reset();
+  const SymmetricResult made = remeshSymmetric(input, options, about({ 0.5, 0, 0 }, { 1, 0, 0 }));
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  const QuadMesh& quads = made.remeshed.quads;
+  for (const Vector3& place : { behind, made.plane.image(behind) })
+  {
+    const Index p = nearestPoint(quads.points, place);
+    EXPECT_LE((quads.points[p] - place).norm(), 1e-8); // the grid of a run's frame
+    EXPECT_EQ(quads.valence[p], 5);
+  }
+  // Both pieces of the line and their images are edges: points of quads lie along them.
+  for (const double share : { 0.2, 0.4, 0.7, 0.9 })
+  {
+    const Vector3 on = Vector3(0.25, 0.1, 0) + share * Vector3(0.45, 0.17, 0);
+    for (const Vector3& p : { on, made.plane.image(on) })
+    {
+      double least = 1;
+      for (const std::array<Index, 4>& quad : quads.quads)
+      {
+        for (std::size_t i = 0; i < 4; ++i)
+        {
+          least = std::min(
+            least, distanceToSegment(p, quads.points[quad[i]], quads.points[quad[(i + 1) % 4]]));
+        }
+      }
+      EXPECT_LT(least, 0.05 * made.remeshed.targetEdgeLength);
+    }
+  }
+  const auto sizeNear = [&](const Vector3& place)
+  {
+    double area = 0, count = 0;
+    for (const std::array<Index, 4>& quad : quads.quads)
+    {
+      if ((quads.points[quad[0]] - place).norm() < 0.1)
+      {
+        area += 0.5 *
+          (quads.points[quad[2]] - quads.points[quad[0]])
+            .cross(quads.points[quad[3]] - quads.points[quad[1]])
+            .norm();
+        count += 1;
+      }
+    }
+    return std::sqrt(area / count);
+  };
+  EXPECT_NEAR(sizeNear({ 0, 0.5, 0.5 }), sizeNear({ 1, 0.5, 0.5 }), 1e-9);
+  EXPECT_LT(sizeNear({ 0, 0.5, 0.5 }), 0.75 * sizeNear({ 0.5, 0.9, 1 }));
 }
 
 TEST(Symmetry, ContradictionsAreTold)
