@@ -429,38 +429,103 @@ struct StripPath
   }
 };
 
-/// Where the path has a corner and the other way round the vertex there is shorter, the strip takes that way.
-bool leadRound(
-  const Mesh& mesh, std::size_t k, const MeshPlace& from, const MeshPlace& to, StripPath& path)
+/// A part of a strip, from portal `first` on, and what it becomes.
+struct ChangedPart
 {
-  const Index v = vertexOfCorner(mesh, path.flat, path.strip, path.corners[k]);
-  FanOfStrip fan{ path.corners[k].portal - 1, path.corners[k].portal - 1 };
-  while (fan.first > 0 && endsAt(mesh, path.strip[fan.first - 1], v))
+  std::size_t first = 0, end = 0;
+  std::vector<Index> strip;
+};
+
+/// The place of a corner of the path, in the face behind it.
+MeshPlace placeOfCorner(const Mesh& mesh, const StripPath& path, std::size_t k,
+  const MeshPlace& from, const MeshPlace& to)
+{
+  if (k == 0 || k + 1 == path.corners.size())
+  {
+    return k == 0 ? from : to;
+  }
+  return { from.face, mesh.position[vertexOfCorner(mesh, path.flat, path.strip, path.corners[k])] };
+}
+
+/// Where the path has a corner and the other way round the vertex there is shorter: the strip from a corner before to
+/// one behind, led that way.
+std::optional<ChangedPart> ledRound(const Mesh& mesh, std::size_t k, const MeshPlace& from,
+  const MeshPlace& to, const StripPath& path)
+{
+  const std::vector<PathCorner>& corners = path.corners;
+  const std::vector<Index>& strip = path.strip;
+  const Index v = vertexOfCorner(mesh, path.flat, strip, corners[k]);
+  FanOfStrip fan{ corners[k].portal - 1, corners[k].portal - 1 };
+  while (fan.first > 0 && endsAt(mesh, strip[fan.first - 1], v))
   {
     --fan.first;
   }
-  while (fan.last + 1 < path.strip.size() && endsAt(mesh, path.strip[fan.last + 1], v))
+  while (fan.last + 1 < strip.size() && endsAt(mesh, strip[fan.last + 1], v))
   {
     ++fan.last;
   }
-  const auto way = otherWayRound(mesh, path.strip, fan, v);
+  const auto way = otherWayRound(mesh, strip, fan, v);
   if (!way)
   {
-    return false;
+    return std::nullopt;
   }
-  std::vector<Index> strip(
-    path.strip.begin(), path.strip.begin() + static_cast<std::ptrdiff_t>(fan.first));
-  strip.insert(strip.end(), way->begin(), way->end());
-  strip.insert(
-    strip.end(), path.strip.begin() + static_cast<std::ptrdiff_t>(fan.last) + 1, path.strip.end());
-  StripPath other(mesh, std::move(strip), from, to);
-  constexpr double kShorter = 1 - 1e-12;
-  if (!(lengthOf(other.corners) < kShorter * lengthOf(path.corners)))
+  // A corner lies in the face before the last portal that ends there, and in the one behind.
+  const auto endAt = [&](std::size_t i)
+  { return i + 1 == corners.size() ? strip.size() : corners[i].portal - 1; };
+  std::size_t low = k - 1, high = k + 1;
+  while (corners[low].portal > fan.first)
   {
-    return false;
+    --low;
   }
-  path = std::move(other);
-  return true;
+  while (endAt(high) <= fan.last)
+  {
+    ++high;
+  }
+  double before = 0;
+  for (std::size_t i = low; i < high; ++i)
+  {
+    before += (corners[i + 1].point - corners[i].point).norm();
+  }
+  ChangedPart part{ corners[low].portal, endAt(high), {} };
+  const auto at = [&](std::size_t i) { return strip.begin() + static_cast<std::ptrdiff_t>(i); };
+  part.strip.assign(at(part.first), at(fan.first));
+  part.strip.insert(part.strip.end(), way->begin(), way->end());
+  part.strip.insert(part.strip.end(), at(fan.last + 1), at(part.end));
+  const StripPath other(mesh, part.strip, placeOfCorner(mesh, path, low, from, to),
+    placeOfCorner(mesh, path, high, from, to));
+  constexpr double kShorter = 1 - 1e-12;
+  return lengthOf(other.corners) < kShorter * before ? std::optional<ChangedPart>(std::move(part))
+                                                     : std::nullopt;
+}
+
+/// The strip led round all corners where that makes the path shorter, but for those whose parts overlap. Whether there
+/// are any.
+bool leadRound(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to, StripPath& path)
+{
+  std::vector<Index> strip;
+  std::size_t taken = 0;
+  bool isShorter = false;
+  const auto take = [&](std::size_t end)
+  {
+    strip.insert(strip.end(), path.strip.begin() + static_cast<std::ptrdiff_t>(taken),
+      path.strip.begin() + static_cast<std::ptrdiff_t>(end));
+    taken = end;
+  };
+  for (std::size_t k = 1; k + 1 < path.corners.size(); ++k)
+  {
+    pollNowAndThen(k);
+    const auto part = ledRound(mesh, k, from, to, path);
+    if (part && part->first >= taken)
+    {
+      isShorter = true;
+      take(part->first);
+      strip.insert(strip.end(), part->strip.begin(), part->strip.end());
+      taken = part->end;
+    }
+  }
+  take(path.strip.size());
+  path = isShorter ? StripPath(mesh, std::move(strip), from, to) : std::move(path);
+  return isShorter;
 }
 
 bool liesOn(const Mesh& mesh, Index h, const Vector3& p)
@@ -493,15 +558,8 @@ StripPath straightPath(
   const Mesh& mesh, std::vector<Index> strip, const MeshPlace& from, const MeshPlace& to)
 {
   StripPath path(mesh, std::move(strip), from, to);
-  bool isShorter = true;
-  while (isShorter)
+  while (leadRound(mesh, from, to, path))
   {
-    isShorter = false;
-    for (std::size_t k = 1; k + 1 < path.corners.size() && !isShorter; ++k)
-    {
-      pollNowAndThen(k);
-      isShorter = leadRound(mesh, k, from, to, path);
-    }
   }
   return path;
 }
