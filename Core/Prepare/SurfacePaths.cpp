@@ -3,7 +3,7 @@
 #include "Prepare/SurfacePaths.h"
 
 #include "Prepare/Prepare.h"
-#include "Requests/MeshPlaces.h"
+#include "Requests/MeshPaths.h"
 
 #include <utility>
 

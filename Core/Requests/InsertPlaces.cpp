@@ -7,7 +7,7 @@
 #include "Mesh/Distance.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/SurfaceEdit.h"
-#include "Requests/MeshPlaces.h"
+#include "Requests/MeshPaths.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "Requests/StrokeGuides.h"
 
 #include "Mesh/Distance.h"
-#include "Requests/MeshPlaces.h"
+#include "Requests/MeshPaths.h"
 
 #include <algorithm>
 #include <limits>

@@ -5,7 +5,7 @@
 #include "Mesh/Distance.h"
 #include "Mesh/Sizing.h"
 #include "Prepare/Prepare.h"
-#include "Requests/MeshPlaces.h"
+#include "Requests/MeshPaths.h"
 #include "Requests/StrokeGuides.h"
 #include "TestMeshes.h"
 
