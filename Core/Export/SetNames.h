@@ -46,6 +46,7 @@ public:
   std::vector<std::string> uniqueOf(const std::vector<Set>& sets, std::size_t room = 0)
   {
     std::vector<std::string> names;
+    names.reserve(sets.size());
     for (const Set& set : sets)
     {
       names.push_back(set.name);

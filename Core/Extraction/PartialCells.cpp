@@ -252,6 +252,7 @@ private:
   std::vector<std::uint8_t> wantedOf(const std::vector<Stop>& stops) const
   {
     std::vector<std::uint8_t> wanted;
+    wanted.reserve(stops.size());
     for (const Stop& stop : stops)
     {
       wanted.push_back(isWanted(stop) ? 1 : 0);

@@ -53,10 +53,10 @@ struct AttemptLog
 
 /// What the store has, with its stages as reused, after those that led to it.
 template <typename Part>
-std::shared_ptr<Part> asReused(const Part& found, std::vector<std::string> before)
+std::shared_ptr<Part> asReused(const Part& found, const std::vector<std::string>& before)
 {
   auto part = std::make_shared<Part>(found);
-  part->reused = std::move(before);
+  part->reused = before;
   for (const StageRecord& record : found.stages.all())
   {
     part->reused.push_back(record.stage);

@@ -222,7 +222,7 @@ std::shared_ptr<const QuadAttempt> makeQuads(
 {
   const ResultKey key =
     KeyMaker(map.key).add(run.options.smoothingSteps, run.options.finalQuality).key();
-  if (const auto known = findQuads(run, key, map))
+  if (auto known = findQuads(run, key, map))
   {
     run.levels.letGo();
     return known;

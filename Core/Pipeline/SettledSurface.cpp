@@ -202,6 +202,7 @@ std::size_t cut(Settling& work, double limit)
     return 0;
   }
   std::vector<std::vector<Index>> places;
+  places.reserve(loops.size());
   for (const HandleLoop& loop : loops)
   {
     places.push_back(loop.vertices);
@@ -369,7 +370,7 @@ Status simplify(Settling& work)
   {
     DetailLimits limits = detailLimits(sized.edgeLength, work.takesAll, work.isRest);
     fill(work, limits.boundaryLoops);
-    const Status status = judgeHandles(sized, false, work.options.threads, work.store);
+    Status status = judgeHandles(sized, false, work.options.threads, work.store);
     if (!status.ok())
     {
       return status;

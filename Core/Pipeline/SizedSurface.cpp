@@ -77,11 +77,11 @@ PreparedSurface prepareInput(
   prepareOptions.threads = options.threads;
   prepareOptions.progress = subProgress(options.progress, 0.0, 0.1, "Preparing: ");
   const std::size_t polygons = input.polygonOffsets.empty() ? 0 : input.polygonOffsets.size() - 1;
-  PreparedSurface surface = prepareSurface(std::move(input), prepareOptions);
   SurfaceInput later;
-  later.held = std::move(input.held);
-  later.drawn = std::move(input.drawn);
-  later.sizingOrders = std::move(input.sizingOrders);
+  later.held = input.held;
+  later.drawn = input.drawn;
+  later.sizingOrders = input.sizingOrders;
+  PreparedSurface surface = prepareSurface(std::move(input), prepareOptions);
   input = std::move(later);
   releaseFreedMemory();
   for (const auto& [name, seconds] : surface.seconds)

@@ -152,7 +152,7 @@ void ConstraintPlacement::addValence(std::int64_t source, const Vector3& point, 
 
 Vector3 ConstraintPlacement::addSize(const Vector3& point, double radius, double factor, int order)
 {
-  const Vector3 place = places_.nearestPlace(point).point;
+  Vector3 place = places_.nearestPlace(point).point;
   requests_.sizes.push_back({ place, radius, factor, order });
   return place;
 }

@@ -31,6 +31,7 @@ SurfacePaths::Path SurfacePaths::through(const std::vector<Vector3>& points) con
   const Mesh& mesh = made_ ? made_->mesh : *mesh_;
   const Frame frame = made_ ? frame_ : Frame();
   std::vector<Vector3> framed;
+  framed.reserve(points.size());
   for (const Vector3& p : points)
   {
     framed.push_back(frame.fromUser(p));

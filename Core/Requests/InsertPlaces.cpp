@@ -455,6 +455,7 @@ void insertSizes(PreparedSurface& surface, const std::vector<SizeRequest>& sizes
   mesh.sizing.resize(mesh.vertexCount(), 1.0F);
   Insertion insertion(surface, options);
   std::vector<Vector3> places;
+  places.reserve(sizes.size());
   for (const SizeRequest& size : sizes)
   {
     places.push_back(size.place);
@@ -487,6 +488,7 @@ InsertedValences insertValences(PreparedSurface& surface, const std::vector<Vale
 {
   Insertion insertion(surface, options);
   std::vector<Vector3> places;
+  places.reserve(valences.size());
   for (const ValencePlace& asked : valences)
   {
     places.push_back(asked.place);

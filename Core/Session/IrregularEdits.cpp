@@ -99,7 +99,7 @@ private:
   /// Where an irregular vertex is already, that one.
   Vector3 placeNear(std::size_t i) const
   {
-    const Vector3 place = where_.places.nearestPlace(edit_.points[i]).point;
+    Vector3 place = where_.places.nearestPlace(edit_.points[i]).point;
     for (const IrregularVertex& vertex : irregular_)
     {
       if ((vertex.place - place).norm() <= where_.sameWithin)
