@@ -6,6 +6,7 @@
 #include "Base/Types.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <numeric>
 #include <string>
@@ -20,6 +21,15 @@ void sortUnique(List& list)
 {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// Where a value stands among ascending ones that have it.
+template <typename Values>
+Index placeIn(const Values& values, Index value)
+{
+  const auto found = std::lower_bound(values.begin(), values.end(), value);
+  assert(found != values.end() && *found == value);
+  return static_cast<Index>(found - values.begin());
 }
 
 /// Takes out what the predicate holds for; the rest keeps its order.

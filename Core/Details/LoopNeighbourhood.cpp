@@ -3,9 +3,9 @@
 #include "Details/LoopNeighbourhood.h"
 
 #include "Base/DisjointSets.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
-#include "Base/Sorted.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Details/NearLoops.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
-#include "Base/Sorted.h"
 
 #include <algorithm>
 #include <utility>

@@ -5,7 +5,6 @@
 #include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Refuse.h"
-#include "Base/Sorted.h"
 #include "Base/TryCount.h"
 #include "Elements/QuadraticShape.h"
 #include "Elements/SurfaceSection.h"

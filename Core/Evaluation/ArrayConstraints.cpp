@@ -3,7 +3,7 @@
 #include "Evaluation/ArrayConstraints.h"
 
 #include "Base/DisjointSets.h"
-#include "Base/Sorted.h"
+#include "Base/Lists.h"
 #include "Evaluation/ConstraintMeasures.h"
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 #include "Base/Angles.h"
 #include "Base/DisjointSets.h"
 #include "Base/LargeArray.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
-#include "Base/Sorted.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>

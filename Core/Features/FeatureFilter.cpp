@@ -4,8 +4,8 @@
 
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
+#include "Base/Lists.h"
 #include "Base/Progress.h"
-#include "Base/Sorted.h"
 #include "Features/EdgesAtVertices.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Sizing.h"

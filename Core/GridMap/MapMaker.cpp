@@ -6,7 +6,6 @@
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
-#include "Base/Sorted.h"
 #include "Base/TryCount.h"
 #include "GridMap/Embed.h"
 #include "GridMap/MapCheck.h"

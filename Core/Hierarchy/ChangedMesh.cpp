@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/ChangedMesh.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
-#include "Base/Sorted.h"
 
 #include <algorithm>
 #include <cstddef>

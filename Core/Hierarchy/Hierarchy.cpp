@@ -3,9 +3,9 @@
 #include "Hierarchy/Hierarchy.h"
 
 #include "Base/Clock.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
-#include "Base/Sorted.h"
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/ChangedMesh.h"
 #include "Hierarchy/DecimationMesh.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Integers/StripSteps.h"
 
-#include "Base/Sorted.h"
+#include "Base/Lists.h"
 
 #include <algorithm>
 #include <cstddef>

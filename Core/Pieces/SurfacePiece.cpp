@@ -4,7 +4,7 @@
 
 #include "Base/Clock.h"
 #include "Base/Error.h"
-#include "Base/Sorted.h"
+#include "Base/Lists.h"
 #include "Features/Features.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Pieces/CarriedPlaces.h"

@@ -3,7 +3,7 @@
 #include "Prepare/MergePoints.h"
 
 #include "Base/DisjointSets.h"
-#include "Base/Sorted.h"
+#include "Base/Lists.h"
 
 #include <algorithm>
 #include <array>

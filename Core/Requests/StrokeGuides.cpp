@@ -60,13 +60,6 @@ std::vector<PathParts> partsOf(
   return result;
 }
 
-Vector3 centreOf(const Mesh& mesh, Index f)
-{
-  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
-           mesh.position[mesh.origin[3 * f + 2]]) /
-    3;
-}
-
 /// The direction of the nearest part of a path, where it is within the radius; else zero.
 Vector3 directionNear(const PathParts& parts, const Vector3& p, double radius)
 {
@@ -112,7 +105,7 @@ std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, 
       {
         continue;
       }
-      const Vector3 direction = directionNear(parts, centreOf(mesh, other), radius);
+      const Vector3 direction = directionNear(parts, mesh.middleOfFace(other), radius);
       if (!direction.isZero(0))
       {
         directions[other] = direction;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/DefectSearch.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
-#include "Base/Sorted.h"
 #include "GridMap/MapCheck.h"
 
 #include <algorithm>

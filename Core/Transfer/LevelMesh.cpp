@@ -3,7 +3,7 @@
 #include "Transfer/LevelMesh.h"
 
 #include "Base/ChartRotation.h"
-#include "Base/Sorted.h"
+#include "Base/Lists.h"
 
 #include <algorithm>
 #include <iterator>

@@ -3,9 +3,9 @@
 #include "Transfer/Transfer.h"
 
 #include "Base/LargeArray.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
-#include "Base/Sorted.h"
 #include "GridMap/MapCheck.h"
 #include "Transfer/ExpectedTurns.h"
 #include "Transfer/PatchMender.h"
