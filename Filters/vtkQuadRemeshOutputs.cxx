@@ -83,6 +83,16 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   const quadrille::RemeshResult& result = run.result;
   vtkPolyData* input = block.input();
   quadrille::QuadSource source = sourceOf(result.surface, run.converted, input);
+  if (result.surface.beforeFlips && run.symmetric == nullptr && run.pieces == nullptr)
+  {
+    // A flipped face lies in several cells.
+    for (std::size_t p = 0; p < result.quads.points.size(); ++p)
+    {
+      const quadrille::SourceLocation at =
+        result.surface.locate(result.quads.sourceFace[p], result.quads.sourceWeights[p]);
+      source.pointCells.push_back(run.converted.cell(at.polygon));
+    }
+  }
   source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
   source.threads = this->NumberOfThreads;
   if (run.symmetric != nullptr)

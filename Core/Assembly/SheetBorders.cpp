@@ -12,21 +12,8 @@ namespace quadrille
 
 Index SheetBorders::inputAt(Index corner) const
 {
-  const PreparedSurface& surface = result_.surface;
-  const Index f = corner / 3;
-  if (surface.refinedEntry.empty() || surface.refinedEntry[f] == kInvalidIndex)
-  {
-    return surface.sourcePoints[f][corner % 3];
-  }
-  const auto& weights = surface.cornerWeights[surface.refinedEntry[f]][corner % 3];
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    if (weights[i] == 1)
-    {
-      return surface.sourcePoints[f][i];
-    }
-  }
-  return kNoJoint;
+  const Index point = result_.surface.inputPointAt(corner);
+  return point == kInvalidIndex ? kNoJoint : point;
 }
 
 void SheetBorders::findFineLoops()

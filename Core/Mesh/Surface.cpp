@@ -3,6 +3,9 @@
 #include "Mesh/Surface.h"
 
 #include "Base/PlaceText.h"
+#include "Mesh/FlatSources.h"
+
+#include <algorithm>
 
 namespace quadrille
 {
@@ -51,15 +54,38 @@ std::string FacetReport::text() const
     "(mark edges to have them followed: Feature Edges, Curves)";
 }
 
+Index PreparedSurface::inputPointAt(Index h) const
+{
+  const Index f = Mesh::face(h), corner = h % 3;
+  const Index entry = refinedEntry.empty() ? kInvalidIndex : refinedEntry[f];
+  if (entry == kInvalidIndex)
+  {
+    return sourcePoints[f][corner];
+  }
+  if (isFlipped(f))
+  {
+    return flipped[entry].points[corner];
+  }
+  const std::array<double, 3>& weights = cornerWeights[entry][corner];
+  const auto* whole = std::find(weights.begin(), weights.end(), 1.0);
+  return whole == weights.end() ? kInvalidIndex
+                                : sourcePoints[f][static_cast<std::size_t>(whole - weights.begin())];
+}
+
 SourceLocation PreparedSurface::locate(Index f, const std::array<double, 3>& weights) const
 {
+  const Index entry = refinedEntry.empty() ? kInvalidIndex : refinedEntry[f];
+  if (beforeFlips && isFlipped(f))
+  {
+    return beforeFlips->locate(flipped[entry], weights);
+  }
   SourceLocation location;
   location.polygon = sourcePolygon[f];
   location.points = sourcePoints[f];
   location.weights = weights;
-  if (!refinedEntry.empty() && refinedEntry[f] != kInvalidIndex)
+  if (entry != kInvalidIndex)
   {
-    const auto& corners = cornerWeights[refinedEntry[f]];
+    const auto& corners = cornerWeights[entry];
     for (std::size_t k = 0; k < 3; ++k)
     {
       location.weights[k] =

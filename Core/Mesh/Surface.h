@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -104,6 +105,24 @@ struct FacetReport
   std::string text() const;
 };
 
+/// Of a face that refinement has made over several triangles of a flat part, see FlatFlips.h.
+struct FlippedFace
+{
+  /// 0: the face is part of one triangle; else which of PreparedSurface::beforeFlips, counted from the first one.
+  Index level = 0;
+  std::array<Index, 3> points{ kInvalidIndex, kInvalidIndex, kInvalidIndex }; ///< as inputPointAt
+  /// Of the corners, in the coordinates that they had then.
+  std::array<Vector3, 3> places{ Vector3::Zero(), Vector3::Zero(), Vector3::Zero() };
+};
+
+class FlatSources;
+
+/// Barycentric coordinates, in its face, of the corner where half-edge h begins.
+inline std::array<double, 3> cornerWeight(Index h)
+{
+  return { double(h % 3 == 0), double(h % 3 == 1), double(h % 3 == 2) };
+}
+
 /// The finest level: repaired, ordered, with features. Copies share the triangles and where they come from; another
 /// version of a surface, with other features, sizes or requests, is such a copy.
 struct PreparedSurface : SurfaceRequests
@@ -124,7 +143,12 @@ struct PreparedSurface : SurfaceRequests
   /// Only where a face was split: index into cornerWeights, else kInvalidIndex. Empty when no face
   /// was split.
   SharedArray<Index> refinedEntry;
-  SharedArray<std::array<std::array<double, 3>, 3>> cornerWeights; ///< [corner][source corner]
+  /// [corner][source corner]. Of a flipped face: of the triangle under its centroid, in whose plane the others lie, so
+  /// that weights may be negative.
+  SharedArray<std::array<std::array<double, 3>, 3>> cornerWeights;
+  SharedArray<FlippedFace> flipped; ///< as cornerWeights, or empty where no face was flipped
+  /// What was there before the last flips; null where no face was flipped.
+  std::shared_ptr<const FlatSources> beforeFlips;
 
   /// Set by who wants to know what becomes of the elements; orderSurface keeps it.
   std::optional<NamesBefore> namesBefore;
@@ -140,6 +164,14 @@ struct PreparedSurface : SurfaceRequests
   /// Empty, or why refineSurface left edges longer than it was asked to.
   std::string notice;
 
+  /// Whether refinement has made the face over several triangles.
+  bool isFlipped(Index f) const
+  {
+    return !flipped.empty() && refinedEntry[f] != kInvalidIndex &&
+      flipped[refinedEntry[f]].level > 0;
+  }
+  /// The input point at the corner where half-edge h begins; kInvalidIndex where refinement has put the corner.
+  Index inputPointAt(Index h) const;
   /// Source of the point with barycentric coordinates `weights` in face `f` of the mesh.
   SourceLocation locate(Index f, const std::array<double, 3>& weights) const;
 };

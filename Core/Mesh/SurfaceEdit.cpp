@@ -26,6 +26,10 @@ Index ensureEntry(PreparedSurface& surface, Index f)
   {
     surface.refinedEntry.edit()[f] = static_cast<Index>(surface.cornerWeights.size());
     surface.cornerWeights.push_back({ { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
+    if (!surface.flipped.empty())
+    {
+      surface.flipped.push_back({});
+    }
   }
   return surface.refinedEntry[f];
 }
@@ -35,10 +39,19 @@ Weights cornerOf(const PreparedSurface& surface, Index h)
   return surface.cornerWeights[surface.refinedEntry[Mesh::face(h)]][h % 3];
 }
 
-void setCorner(PreparedSurface& surface, Index h, Index vertex, const Weights& weights)
+/// point: of the input, where the corner stands at one.
+void setCorner(PreparedSurface& surface, Index h, Index vertex, const Weights& weights,
+  Index point = kInvalidIndex)
 {
+  const Index entry = surface.refinedEntry[Mesh::face(h)];
   surface.mesh.origin.edit()[h] = vertex;
-  surface.cornerWeights.edit()[surface.refinedEntry[Mesh::face(h)]][h % 3] = weights;
+  surface.cornerWeights.edit()[entry][h % 3] = weights;
+  if (!surface.flipped.empty())
+  {
+    FlippedFace& flipped = surface.flipped.edit()[entry];
+    flipped.points[h % 3] = point;
+    flipped.places[h % 3] = surface.mesh.position[vertex];
+  }
 }
 
 /// Appends a copy of face f, half-edge for half-edge, without twins and flags; returns its id.
@@ -58,6 +71,10 @@ Index appendCopy(PreparedSurface& surface, Index f)
   surface.refinedEntry.push_back(static_cast<Index>(surface.cornerWeights.size()));
   surface.cornerWeights.push_back(
     std::array<std::array<double, 3>, 3>(surface.cornerWeights[entry]));
+  if (!surface.flipped.empty())
+  {
+    surface.flipped.push_back(FlippedFace(surface.flipped[entry]));
+  }
   return copy;
 }
 
@@ -156,8 +173,9 @@ void closeWithFan(PreparedSurface& surface, const std::vector<Index>& run, const
     const Index face = 3 * appendCopy(surface, Mesh::face(h)); // becomes (to, from, middle)
     const Weights weightsTo = cornerOf(surface, Mesh::next(h));
     const Weights weightsFrom = cornerOf(surface, h);
-    setCorner(surface, face, to, weightsTo);
-    setCorner(surface, face + 1, from, weightsFrom);
+    const Index pointTo = surface.inputPointAt(Mesh::next(h)), pointFrom = surface.inputPointAt(h);
+    setCorner(surface, face, to, weightsTo, pointTo);
+    setCorner(surface, face + 1, from, weightsFrom, pointFrom);
     setCorner(surface, face + 2, middle, mean(weightsTo, weightsFrom));
     glue(mesh, h, face);
     mesh.flags.edit()[face] = mesh.flags[h];
@@ -439,6 +457,47 @@ void flipSliver(PreparedSurface& surface, Index h)
   pointsF[n % 3] = pointD;
   pointsK[ng % 3] = pointC;
   surface.sourcePolygon.edit()[Mesh::face(h)] = surface.sourcePolygon[Mesh::face(g)];
+}
+
+void flipFlat(PreparedSurface& surface, Index h, Index level)
+{
+  // before: h a->b, n b->c, p c->a; g b->a, ng a->d, pg d->b. after: h a->d, n d->c, p c->a; g b->c, ng c->d, pg d->b.
+  Mesh& mesh = surface.mesh;
+  const Index g = mesh.twin[h];
+  const Index n = Mesh::next(h), p = Mesh::previous(h);
+  const Index ng = Mesh::next(g), pg = Mesh::previous(g);
+  const Index pointC = surface.inputPointAt(p), pointD = surface.inputPointAt(pg);
+  std::array<FlippedFace, 2> made;
+  for (const Index side : { h, g })
+  {
+    FlippedFace& face = made[side == h ? 0 : 1];
+    face.level = level;
+    for (const Index e : { side, Mesh::next(side), Mesh::previous(side) })
+    {
+      face.points[e % 3] = surface.inputPointAt(e);
+      face.places[e % 3] = mesh.position[mesh.origin[e]];
+    }
+    ensureEntry(surface, Mesh::face(side));
+  }
+  made[0].points[n % 3] = pointD;
+  made[0].places[n % 3] = mesh.position[mesh.origin[pg]];
+  made[1].points[ng % 3] = pointC;
+  made[1].places[ng % 3] = mesh.position[mesh.origin[p]];
+  if (surface.flipped.empty())
+  {
+    surface.flipped.resize(surface.cornerWeights.size());
+  }
+  FlippedFace* flipped = surface.flipped.edit();
+  flipped[surface.refinedEntry[Mesh::face(h)]] = made[0];
+  flipped[surface.refinedEntry[Mesh::face(g)]] = made[1];
+
+  const std::uint8_t inner = mesh.flags[h];
+  moveEdge(mesh, ng, h); // a -> d
+  moveEdge(mesh, n, g);  // b -> c
+  joinInner(mesh, n, ng);
+  mesh.flags.edit()[n] = mesh.flags.edit()[ng] = inner;
+  mesh.origin.edit()[n] = mesh.origin[pg]; // d -> c
+  mesh.origin.edit()[ng] = mesh.origin[p]; // c -> d
 }
 
 } // namespace quadrille

@@ -50,4 +50,9 @@ bool mayFlip(const Mesh& mesh, Index h);
 /// faces with weights.
 void flipSliver(PreparedSurface& surface, Index h);
 
+/// Flips the edge of h, whose two faces are flat together, for the flips of this level of the surface
+/// (PreparedSurface::flipped). The faces keep their slots, h and its twin begin where they did; their sources are those
+/// of before until FlatFlips tells them.
+void flipFlat(PreparedSurface& surface, Index h, Index level);
+
 } // namespace quadrille

@@ -217,16 +217,22 @@ std::vector<Index> facesByLowestVertex(const Mesh& mesh, int threads)
 void orderWeights(PreparedSurface& surface)
 {
   std::vector<std::array<std::array<double, 3>, 3>> weights;
+  std::vector<FlippedFace> flipped;
   Index* entry = surface.refinedEntry.edit();
   for (std::size_t f = 0; f < surface.refinedEntry.size(); ++f)
   {
     if (entry[f] != kInvalidIndex)
     {
       weights.push_back(surface.cornerWeights[entry[f]]);
+      if (!surface.flipped.empty())
+      {
+        flipped.push_back(surface.flipped[entry[f]]);
+      }
       entry[f] = static_cast<Index>(weights.size() - 1);
     }
   }
   surface.cornerWeights = std::move(weights);
+  surface.flipped = std::move(flipped);
 }
 
 void orderTwins(Mesh& mesh, const std::vector<Index>& order, Permuter& permute)

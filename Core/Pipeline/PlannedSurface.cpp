@@ -36,7 +36,8 @@ std::size_t bytesOf(const PreparedSurface& surface, const PreparedSurface* shari
   { return ownBytes(surface.*member, sharing != nullptr ? &(sharing->*member) : nullptr); };
   return bytesOf(surface.mesh, sharing != nullptr ? &sharing->mesh : nullptr) +
     own(&PreparedSurface::sourcePolygon) + own(&PreparedSurface::sourcePoints) +
-    own(&PreparedSurface::refinedEntry) + own(&PreparedSurface::cornerWeights);
+    own(&PreparedSurface::refinedEntry) + own(&PreparedSurface::cornerWeights) +
+    own(&PreparedSurface::flipped);
 }
 
 double areaOverSizes(const PreparedSurface& surface)

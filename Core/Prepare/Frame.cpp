@@ -347,11 +347,10 @@ Vector3 placeBetween(
 Vector3 userPositionAt(
   const PreparedSurface& surface, Index h, const Frame& frame, const std::vector<Vector3>& points)
 {
-  const Index f = Mesh::face(h);
   const Vector3 place = frame.toUser(surface.mesh.position[surface.mesh.origin[h]]);
-  const bool isWhole = surface.refinedEntry.empty() || surface.refinedEntry[f] == kInvalidIndex;
+  const Index point = surface.inputPointAt(h);
   const Vector3 between =
-    isWhole ? points[surface.sourcePoints[f][h % 3]] : placeBetween(surface, h, frame, points);
+    point != kInvalidIndex ? points[point] : placeBetween(surface, h, frame, points);
   // Repair may have moved a corner: then its source is another point.
   const double step = std::ldexp(frame.unit, -kGridBits);
   const double last = std::ldexp(place.cwiseAbs().maxCoeff(), -50);
@@ -460,6 +459,11 @@ void reverseFaces(PreparedSurface& surface)
     {
       std::swap(weights[1], weights[2]);
     }
+  }
+  for (FlippedFace& face : surface.flipped.editAll())
+  {
+    std::swap(face.points[1], face.points[2]);
+    std::swap(face.places[1], face.places[2]);
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Prepare/Refine.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Mesh/ComponentSizes.h"
@@ -9,6 +10,7 @@
 #include "Mesh/Sizing.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/SurfaceEdit.h"
+#include "Prepare/FlatFlips.h"
 
 #include <algorithm>
 #include <array>
@@ -168,6 +170,31 @@ public:
     }
   }
 
+  /// An edge that got another name or place.
+  void pushChanged(Index h) { pushEdge(h); }
+
+  /// One half-edge of each edge inside, of the faces that have one that is too long.
+  std::vector<Index> edgesBesideLong() const
+  {
+    std::vector<Index> edges;
+    for (Index f = 0; f < faces_; ++f)
+    {
+      const std::array<double, 3> lengths = squaredLengths(f);
+      if (*std::max_element(lengths.begin(), lengths.end()) > limit_)
+      {
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        {
+          if (!mesh_.isBoundary(h))
+          {
+            edges.push_back(std::min(h, mesh_.twin[h]));
+          }
+        }
+      }
+    }
+    sortUnique(edges);
+    return edges;
+  }
+
   /// The longest edge; kInvalidIndex when none is too long. Splits rename and shorten half-edges, so what
   /// has not the length it was queued with is old.
   Index pop()
@@ -296,6 +323,32 @@ std::size_t countRefined(
   return refined;
 }
 
+/// Edges inside of two faces, the second of which may be none, and of those that were added from `added` on.
+std::vector<Index> edgesOf(const Mesh& mesh, Index f, Index g, Index added)
+{
+  std::vector<Index> faces{ f };
+  if (g != kInvalidIndex)
+  {
+    faces.push_back(g);
+  }
+  for (Index other = added; other < mesh.faceCount(); ++other)
+  {
+    faces.push_back(other);
+  }
+  std::vector<Index> edges;
+  for (const Index face : faces)
+  {
+    for (Index h = 3 * face; h < 3 * face + 3; ++h)
+    {
+      if (!mesh.isBoundary(h))
+      {
+        edges.push_back(h);
+      }
+    }
+  }
+  return edges;
+}
+
 } // namespace
 
 bool splitLongEdges(PreparedSurface& surface, double maximumLength, std::size_t mostFaces,
@@ -305,22 +358,34 @@ bool splitLongEdges(PreparedSurface& surface, double maximumLength, std::size_t 
   LongEdgeQueue queue(surface, maximumLength, threads);
   const double firstFaces = mesh.faceCount();
   std::size_t splits = 0;
+  const std::vector<Index> first = queue.edgesBesideLong();
+  FlatFlips flips(surface, first);
+  const auto push = [&queue](Index h) { queue.pushChanged(h); };
+  flips.flip(first, push);
+  bool areAllShort = true;
   for (Index h = queue.pop(); h != kInvalidIndex; h = queue.pop())
   {
     if (mesh.faceCount() + std::size_t{ 2 } > mostFaces)
     {
-      return false;
+      areAllShort = false;
+      break;
     }
     const Index g = mesh.twin[h];
+    const Index added = mesh.faceCount();
     splitEdge(surface, h);
     queue.pushSplit(h, g);
+    if (flips.any())
+    {
+      flips.flip(edgesOf(mesh, Mesh::face(h), g == kInvalidIndex ? g : Mesh::face(g), added), push);
+    }
     if (++splits % kSplitsBetweenReports == 0)
     {
       report(progress, 0.8 * (mesh.faceCount() - firstFaces) / (mostFaces - firstFaces),
         "Splitting long edges");
     }
   }
-  return true;
+  flips.finish();
+  return areAllShort;
 }
 
 void splitEnclosedFaces(PreparedSurface& surface)

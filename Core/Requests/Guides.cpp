@@ -113,12 +113,8 @@ std::vector<ValenceRequest> cornerRequests(
     {
       for (Index h = static_cast<Index>(begin); h < end; ++h)
       {
-        const Index f = Mesh::face(h);
-        const Index point = surface.sourcePoints[f][h % 3];
-        // A corner that a split of an edge made stands at no point of the input.
-        if (input.targetValences[point] != 0 && isHeld[point] == 0 &&
-          (surface.refinedEntry.empty() || surface.refinedEntry[f] == kInvalidIndex ||
-            surface.cornerWeights[surface.refinedEntry[f]][h % 3][h % 3] == 1))
+        const Index point = surface.inputPointAt(h);
+        if (point != kInvalidIndex && input.targetValences[point] != 0 && isHeld[point] == 0)
         {
           parts[begin / kHalfEdgeChunk].push_back(
             { mesh.origin[h], input.targetValences[point], point });

@@ -158,9 +158,12 @@ std::vector<HeldCandidate> candidatesOf(const SurfaceInput& input, const Prepare
   {
     pollNowAndThen(h);
     const Index f = Mesh::face(h);
-    const std::array<Index, 3>& points = surface.sourcePoints[f];
     const bool isRefined =
       !surface.refinedEntry.empty() && surface.refinedEntry[f] != kInvalidIndex;
+    // What a flipped face comes from is not what its corners come from.
+    const std::array<Index, 3> points = surface.isFlipped(f)
+      ? surface.locate(f, cornerWeight(h)).points
+      : surface.sourcePoints[f];
     for (int i = 0; i < 3; ++i)
     {
       if (points[i] < isHeld.size() && isHeld[points[i]] != 0 &&

@@ -22,14 +22,9 @@ namespace
 /// Of the points of the input round a corner of the surface the nearest one.
 Index pointNearCorner(const PreparedSurface& surface, Index h)
 {
-  const Index f = Mesh::face(h);
-  Index corner = h % 3;
-  if (!surface.refinedEntry.empty() && surface.refinedEntry[f] != kInvalidIndex)
-  {
-    const std::array<double, 3>& weights = surface.cornerWeights[surface.refinedEntry[f]][h % 3];
-    corner = static_cast<Index>(std::max_element(weights.begin(), weights.end()) - weights.begin());
-  }
-  return surface.sourcePoints[f][corner];
+  const SourceLocation source = surface.locate(Mesh::face(h), cornerWeight(h));
+  const auto* nearest = std::max_element(source.weights.begin(), source.weights.end());
+  return source.points[static_cast<std::size_t>(nearest - source.weights.begin())];
 }
 
 /// One operation, being applied.

@@ -221,13 +221,13 @@ TEST(Refine, ASecondRefinementBuildsOnTheFirst)
 
 TEST(Refine, GrowthIsBoundedAndTold)
 {
-  // 2000 strips a thousand times longer than the edge length would need millions of faces.
+  // 2000 strips a thousand times longer than the edge length, no two in a plane, would need millions of faces.
   std::vector<Vector3> points;
   std::vector<std::vector<Index>> polygons;
   for (Index i = 0; i <= 2000; ++i)
   {
-    points.emplace_back(0, i * 1e-4, 0);
-    points.emplace_back(10, i * 1e-4, 0);
+    points.emplace_back(0, i * 1e-4, 5e-5 * (i % 2));
+    points.emplace_back(10, i * 1e-4, 5e-5 * (i % 2));
   }
   for (Index i = 0; i < 2000; ++i)
   {
@@ -241,6 +241,145 @@ TEST(Refine, GrowthIsBoundedAndTold)
   const double bound = 64 * 4000 + 20 * surface.area / (0.01 * 0.01);
   // Chords come on top, at most two faces for each face of the first step.
   EXPECT_LT(surface.mesh.faceCount(), 4 * bound);
+}
+
+/// A square with a round hole of n corners, in needles from the hole to the corners of the square.
+SurfaceInput holedSquare(Index n)
+{
+  std::vector<Vector3> points;
+  for (Index i = 0; i < n; ++i)
+  {
+    const double angle = 2 * kPi * (i + 0.5) / n;
+    points.emplace_back(0.3 * std::cos(angle), 0.3 * std::sin(angle), 0);
+  }
+  for (Index i = 0; i < 4; ++i)
+  {
+    const double angle = kPi / 4 + i * kPi / 2;
+    points.emplace_back(4 * std::sqrt(2.0) * std::cos(angle), 4 * std::sqrt(2.0) * std::sin(angle), 0);
+  }
+  std::vector<std::vector<Index>> polygons;
+  const auto quadrant = [n](Index i)
+  { return n + static_cast<Index>(std::floor((double(i) + 0.5) / n * 4)) % 4; };
+  for (Index i = 0; i < n; ++i)
+  {
+    const Index j = (i + 1) % n;
+    polygons.push_back({ i, quadrant(i), j });
+    if (quadrant(i) != quadrant(j))
+    {
+      polygons.push_back({ j, quadrant(i), quadrant(j) });
+    }
+  }
+  return makeInput(points, polygons);
+}
+
+double smallestAngle(const Mesh& mesh)
+{
+  double smallest = kPi;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3 a = mesh.edgeVector(h), b = -mesh.edgeVector(Mesh::previous(h));
+    smallest = std::min(smallest, std::atan2(a.cross(b).norm(), a.dot(b)));
+  }
+  return smallest;
+}
+
+TEST(FlatFlips, NeedlesBetweenAHoleAndTheCornersBecomeRoundTriangles)
+{
+  const SurfaceInput input = holedSquare(64);
+  PreparedSurface surface = prepare(input);
+  ASSERT_LT(smallestAngle(surface.mesh), 0.01);
+  const double area = surface.area;
+  refineSurface(surface, 0.25, {});
+  EXPECT_EQ(validate(surface.mesh), "");
+  EXPECT_LE(longestEdge(surface.mesh), 0.25);
+  EXPECT_GT(smallestAngle(surface.mesh), 0.1);
+  // Triangles of half that edge length everywhere would be about as many.
+  EXPECT_LT(surface.mesh.faceCount(), 64 * area / (0.25 * 0.25) / 4);
+  double sum = 0;
+  for (Index f = 0; f < surface.mesh.faceCount(); ++f)
+  {
+    sum += surface.mesh.faceArea(f);
+  }
+  EXPECT_NEAR(sum, area, 1e-12 * area);
+}
+
+TEST(FlatFlips, PlacesOfFlippedFacesLieInTheirPolygons)
+{
+  const SurfaceInput input = holedSquare(64);
+  PreparedSurface surface = prepare(input);
+  refineSurface(surface, 0.5, {});
+  refineSurface(surface, 0.25, {}); // flips what the first one has flipped and split
+  std::size_t flipped = 0;
+  for (Index f = 0; f < surface.mesh.faceCount(); ++f)
+  {
+    flipped += surface.isFlipped(f) ? 1 : 0;
+    for (const std::array<double, 3>& weights :
+      { std::array<double, 3>{ 0.5, 0.3, 0.2 }, std::array<double, 3>{ 0, 1, 0 } })
+    {
+      const SourceLocation location = surface.locate(f, weights);
+      Vector3 here = Vector3::Zero(), there = Vector3::Zero();
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        here += weights[k] * surface.mesh.position[surface.mesh.origin[3 * f + k]];
+        there += location.weights[k] * input.points[location.points[k]];
+        EXPECT_GE(location.weights[k], -1e-12);
+        const Index* corners = input.polygonPoints.data() + 3 * location.polygon;
+        EXPECT_NE(std::find(corners, corners + 3, location.points[k]), corners + 3);
+      }
+      EXPECT_LE((here - there).norm(), 1e-9 * surface.boundingBoxDiagonal);
+    }
+    // What is kept by corners tells the same place, if from outside of the triangle.
+    for (Index h = 3 * f; h < 3 * f + 3 && surface.isFlipped(f); ++h)
+    {
+      Vector3 there = Vector3::Zero();
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        there += surface.cornerWeights[surface.refinedEntry[f]][h % 3][k] *
+          input.points[surface.sourcePoints[f][k]];
+      }
+      EXPECT_LE((surface.mesh.position[surface.mesh.origin[h]] - there).norm(), 1e-9);
+    }
+  }
+  EXPECT_GT(flipped, surface.mesh.faceCount() / 8);
+}
+
+TEST(FlatFlips, PointsOfTheInputStayKnown)
+{
+  const SurfaceInput input = holedSquare(64);
+  PreparedSurface surface = prepare(input);
+  refineSurface(surface, 0.25, {});
+  std::vector<std::uint8_t> found(input.points.size(), 0);
+  for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
+  {
+    const Index point = surface.inputPointAt(h);
+    if (point != kInvalidIndex)
+    {
+      found[point] = 1;
+      EXPECT_EQ(surface.mesh.position[surface.mesh.origin[h]], input.points[point]);
+    }
+  }
+  EXPECT_EQ(std::count(found.begin(), found.end(), 1), static_cast<std::ptrdiff_t>(found.size()));
+}
+
+TEST(FlatFlips, BentEdgesAndFeaturesStay)
+{
+  // A long rhombus in two needles, on which the short diagonal is the better one.
+  const auto rhombus = [](double height)
+  {
+    return makeInput({ { -4, 0, 0 }, { 0, -0.5, 0 }, { 4, 0, 0 }, { 0, 0.5, height } },
+      { { 0, 1, 2 }, { 0, 2, 3 } });
+  };
+  const auto flips = [](const SurfaceInput& input)
+  {
+    PreparedSurface surface = prepare(input);
+    refineSurface(surface, 3, {});
+    return !surface.flipped.empty();
+  };
+  EXPECT_TRUE(flips(rhombus(0)));
+  EXPECT_FALSE(flips(rhombus(1e-4)));
+  SurfaceInput input = rhombus(0);
+  input.featureEdges = { 0, 1 };
+  EXPECT_FALSE(flips(input));
 }
 
 TEST(Refine, BadLengthsAreRefused)

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/FlatSources.h"
+
+#include <cassert>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+TriangleList trianglesOf(const Mesh& mesh, const std::vector<Index>& faces)
+{
+  TriangleList triangles;
+  for (const Index f : faces)
+  {
+    const Index first = static_cast<Index>(triangles.points.size());
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      triangles.points.push_back(mesh.position[mesh.origin[h]]);
+    }
+    triangles.corners.push_back({ first, first + 1, first + 2 });
+  }
+  return triangles;
+}
+
+/// Barycentric coordinates in face f of the foot of a place in its plane, which may lie outside of the face.
+std::array<double, 3> weightsInPlane(const Mesh& mesh, Index f, const Vector3& place)
+{
+  const Vector3& a = mesh.position[mesh.origin[3 * f]];
+  const Vector3 ab = mesh.edgeVector(3 * f), ac = -mesh.edgeVector(3 * f + 2), ap = place - a;
+  const Vector3 normal = ab.cross(ac);
+  const double square = normal.squaredNorm();
+  if (!(square > 0))
+  {
+    return { 1, 0, 0 };
+  }
+  const double b = ap.cross(ac).dot(normal) / square, c = ab.cross(ap).dot(normal) / square;
+  return { 1 - b - c, b, c };
+}
+
+} // namespace
+
+FlatSources::FlatSources(PreparedSurface before, std::vector<Index> faces)
+  : before_(std::move(before)), faces_(std::move(faces)), tree_(trianglesOf(before_.mesh, faces_)),
+    level_(before_.beforeFlips ? before_.beforeFlips->level() + 1 : 1)
+{
+}
+
+/// A place of the face on the triangles of before. Where sheets touch, its own side counts, unless faces were reversed
+/// since.
+NearestTriangle::Place FlatSources::under(
+  const FlippedFace& face, const std::array<double, 3>& weights) const
+{
+  const auto& [a, b, c] = face.places;
+  const Vector3 place = weights[0] * a + weights[1] * b + weights[2] * c;
+  const std::optional<NearestTriangle::Place> nearest = tree_.at(place);
+  assert(nearest);
+  const std::optional<NearestTriangle::Place> facing =
+    tree_.at(place, (b - a).cross(c - a), nearest->distance);
+  return facing ? *facing : *nearest;
+}
+
+SourceLocation FlatSources::locate(
+  const FlippedFace& face, const std::array<double, 3>& weights) const
+{
+  if (face.level < level_)
+  {
+    return before_.beforeFlips->locate(face, weights);
+  }
+  const NearestTriangle::Place at = under(face, weights);
+  return before_.locate(faces_[at.triangle], at.weights);
+}
+
+FlatSources::Source FlatSources::sourceOf(const FlippedFace& face) const
+{
+  const Index f = faces_[under(face, { 1.0 / 3, 1.0 / 3, 1.0 / 3 }).triangle];
+  Source source;
+  source.polygon = before_.sourcePolygon[f];
+  source.points = before_.sourcePoints[f];
+  const Index entry = before_.refinedEntry.empty() ? kInvalidIndex : before_.refinedEntry[f];
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const std::array<double, 3> weights = weightsInPlane(before_.mesh, f, face.places[i]);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      double sum = 0;
+      for (std::size_t j = 0; j < 3; ++j)
+      {
+        sum += weights[j] *
+          (entry == kInvalidIndex ? double(j == k) : before_.cornerWeights[entry][j][k]);
+      }
+      source.cornerWeights[i][k] = sum;
+    }
+  }
+  return source;
+}
+
+std::size_t FlatSources::bytes() const
+{
+  return tree_.bytes() + faces_.size() * sizeof(Index) +
+    before_.mesh.faceCount() * (sizeof(Index) * 10 + 3) +
+    before_.mesh.vertexCount() * sizeof(Vector3) +
+    (before_.beforeFlips ? before_.beforeFlips->bytes() : 0);
+}
+
+} // namespace quadrille

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Where places on flat parts lie that were triangulated anew.
+#pragma once
+
+#include "Mesh/NearestTriangle.h"
+#include "Mesh/Surface.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace quadrille
+{
+
+/// A surface as it was before edges of its flat parts were flipped, and its triangles there. Triangles keep neither
+/// their places in the array of faces nor their sources when the surface is ordered, so places are looked for in space.
+class FlatSources
+{
+public:
+  /// faces: those of `before` that were flipped or split.
+  FlatSources(PreparedSurface before, std::vector<Index> faces);
+
+  /// 1 for the first flips of a surface, 2 for those of what these have made, and so on.
+  Index level() const { return level_; }
+  /// Source of the place with these barycentric coordinates in a face of this level, or an earlier one.
+  SourceLocation locate(const FlippedFace& face, const std::array<double, 3>& weights) const;
+
+  /// What a face of this level comes from: the triangle under its centroid, and its corners in the plane of that.
+  struct Source
+  {
+    Index polygon = kInvalidIndex;
+    std::array<Index, 3> points{};
+    std::array<std::array<double, 3>, 3> cornerWeights{};
+  };
+  Source sourceOf(const FlippedFace& face) const;
+  std::size_t bytes() const;
+
+private:
+  NearestTriangle::Place under(
+    const FlippedFace& face, const std::array<double, 3>& weights) const;
+
+  PreparedSurface before_;
+  std::vector<Index> faces_; ///< of before_, by triangle of tree_
+  NearestTriangle tree_;
+  Index level_;
+};
+
+} // namespace quadrille
