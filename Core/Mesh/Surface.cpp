@@ -21,6 +21,25 @@ void append(std::string& text, std::size_t count, const char* singular, const ch
   }
 }
 
+/// A flipped face of which nobody knows what was before reaches beyond the triangle that it names.
+void keepInside(std::array<double, 3>& weights)
+{
+  if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; }))
+  {
+    return;
+  }
+  double sum = 0;
+  for (double& weight : weights)
+  {
+    weight = std::max(weight, 0.0);
+    sum += weight;
+  }
+  for (double& weight : weights)
+  {
+    weight /= sum;
+  }
+}
+
 } // namespace
 
 std::string RepairReport::text() const
@@ -91,6 +110,7 @@ SourceLocation PreparedSurface::locate(Index f, const std::array<double, 3>& wei
       location.weights[k] =
         weights[0] * corners[0][k] + weights[1] * corners[1][k] + weights[2] * corners[2][k];
     }
+    keepInside(location.weights);
   }
   return location;
 }

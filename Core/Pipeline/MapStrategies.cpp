@@ -73,7 +73,7 @@ bool isMatterOfFeatures(const Trouble& trouble)
 {
   const std::vector<Vector3>& places = trouble.attempt.map->coarseTroubles;
   return leavesNoArea(*trouble.attempt.map) &&
-    (!featuresNear(trouble, places).empty() ||
+    (!featuresNear(trouble, dropsAt(trouble, places)).empty() ||
       (trouble.attempt.plan.borderDrops > 0 &&
         !yieldingFeaturesNear(trouble.surface->mesh, places, trouble.run.edgeLength).empty()));
 }
@@ -149,7 +149,7 @@ std::optional<Plan> keptOffenders(const Trouble& trouble)
   // The last time is left out where features can be given up: what keeping vertices did not mend once is theirs.
   const bool isLast = times + 1 == trouble.bound;
   const std::vector<Vector3> places = positionsOf(trouble.surface->mesh, offenders);
-  if (isLast && !featuresNear(trouble, places).empty())
+  if (isLast && !featuresNear(trouble, dropsAt(trouble, places)).empty())
   {
     return std::nullopt;
   }

@@ -48,6 +48,13 @@ struct LevelPlan
   double edgeLength = 1;       ///< over that of the quads
 };
 
+/// A place near which detected features were given up.
+struct FeatureDrop
+{
+  Vector3 place;
+  double radius;
+};
+
 struct Plan
 {
   const char* step =
@@ -67,6 +74,7 @@ struct Plan
   /// Borders of patches that other edges stand for; null: none.
   std::shared_ptr<const MovedFeatures> moved;
   int featureDrops = 0; ///< how often detected features were given up
+  std::vector<FeatureDrop> dropped; ///< where
   int borderDrops = 0;  ///< how often features that were asked for but yield were
 
   // Of the map.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Strategies.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Features/FeatureFilter.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <iomanip>
+#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -267,13 +269,41 @@ bool isTooLarge(const Attempt& attempt)
     (attempt.quads && attempt.quads->status.code == StatusCode::TooLarge);
 }
 
-std::vector<Index> featuresNear(const Trouble& trouble, const std::vector<Vector3>& places)
+std::vector<FeatureDrop> dropsAt(const Trouble& trouble, const std::vector<Vector3>& places)
 {
-  const int drops = trouble.attempt.plan.featureDrops;
-  return static_cast<std::size_t>(drops) < kMostFeatureDrops
-    ? detectedFeaturesNear(trouble.surface->mesh, places,
-        kFirstFeatureDrop * trouble.run.edgeLength * std::pow(2.0, drops))
-    : std::vector<Index>{};
+  const Plan& plan = trouble.attempt.plan;
+  std::vector<FeatureDrop> drops;
+  if (static_cast<std::size_t>(plan.featureDrops) >= kMostFeatureDrops && !trouble.failed)
+  {
+    return drops;
+  }
+  for (const Vector3& place : places)
+  {
+    double radius = kFirstFeatureDrop * trouble.run.edgeLength;
+    for (const FeatureDrop& before : plan.dropped)
+    {
+      const double twice = 2 * before.radius;
+      radius = (place - before.place).norm() <= twice ? std::max(radius, twice) : radius;
+    }
+    drops.push_back({ place, radius });
+  }
+  return drops;
+}
+
+std::vector<Index> featuresNear(const Trouble& trouble, const std::vector<FeatureDrop>& drops)
+{
+  std::vector<Index> features;
+  std::map<double, std::vector<Vector3>> byRadius;
+  for (const FeatureDrop& drop : drops)
+  {
+    byRadius[drop.radius].push_back(drop.place);
+  }
+  for (const auto& [radius, places] : byRadius)
+  {
+    append(features, detectedFeaturesNear(trouble.surface->mesh, places, radius));
+  }
+  sortUnique(features);
+  return features;
 }
 
 std::optional<Plan> smallerQuadsNear(const Trouble& trouble)
@@ -370,12 +400,23 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
     plan.finer = {};
     plan.quads = quadsFor(run, plan, 0);
   }
-  const std::vector<Index> features = featuresNear(trouble, places);
+  std::vector<FeatureDrop> drops = dropsAt(trouble, places);
+  std::vector<Index> features = featuresNear(trouble, drops);
+  const double farthest = trouble.surface->boundingBoxDiagonal;
+  while (trouble.failed && features.empty() && !drops.empty() && drops.front().radius < farthest)
+  {
+    for (FeatureDrop& drop : drops)
+    {
+      drop.radius *= 2;
+    }
+    features = featuresNear(trouble, drops);
+  }
   if (isTooLarge(attempt) || features.empty())
   {
     return std::nullopt;
   }
   ++plan.featureDrops;
+  append(plan.dropped, drops);
   giveUp(features, plan);
   plan.notices.push_back(std::to_string(features.size()) + " sharp edges" + nearText(places) +
     " leave no room for quads of this edge length and were not used as features");

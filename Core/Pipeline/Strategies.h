@@ -14,7 +14,7 @@
 namespace quadrille
 {
 
-/// How often features are given up, and borders of patches.
+/// How often features are given up for quads that are inverted, and borders of patches.
 constexpr std::size_t kMostFeatureDrops = 4;
 constexpr std::size_t kMostBorderDrops = 6;
 
@@ -56,8 +56,9 @@ std::optional<Plan> smallerQuadsNear(const Trouble& trouble);
 /// Where smaller quads near the places do not do: twice as many everywhere. Bound: times one after the other.
 std::optional<Plan> moreQuads(const Trouble& trouble);
 
-/// Features that only the dihedral angle asked for are given up near the places of a failure, or near folds at which
-/// quads are inverted, further round them each time. Bound: times in all.
+/// Features that only the dihedral angle asked for are given up near the places of a failure, twice as far as the last
+/// time where a place fails again, and after a failure so far that there are some; or near folds at which quads are
+/// inverted. Bound: times in all, for quads that are inverted.
 std::optional<Plan> fewerFeatures(const Trouble& trouble);
 
 /// After a failure, features that were asked for but yield (kYieldingFeature), borders of patches, change: first those
@@ -90,7 +91,10 @@ bool isTooLarge(const Attempt& attempt);
 /// Whether features leave coarse triangles no area at so many places that no other vertices mend it.
 bool leavesNoArea(const MapAttempt& map);
 
-/// Features that can be given up near the places.
-std::vector<Index> featuresNear(const Trouble& trouble, const std::vector<Vector3>& places);
+/// How far round each of the places features are given up: half an edge length where it has not failed before, else
+/// twice as far as then.
+std::vector<FeatureDrop> dropsAt(const Trouble& trouble, const std::vector<Vector3>& places);
+/// The features that go then.
+std::vector<Index> featuresNear(const Trouble& trouble, const std::vector<FeatureDrop>& drops);
 
 } // namespace quadrille

@@ -146,13 +146,18 @@ std::size_t PartSources::cornerOf(Index t, Index point) const
 
 SourceLocation PartSources::locate(Index f, const std::array<double, 3>& weights) const
 {
-  const FaceWeights corners = weightsOf(f);
+  const SourceLocation inPart = made_.locate(f, weights);
+  const Index t = inPart.polygon;
   std::array<double, 3> sum{};
-  for (std::size_t k = 0; k < 3; ++k)
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    sum[k] = weights[0] * corners[0][k] + weights[1] * corners[1][k] + weights[2] * corners[2][k];
+    const std::array<double, 3>& corner = part_.weights[t][cornerOf(t, inPart.points[i])];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      sum[k] += inPart.weights[i] * corner[k];
+    }
   }
-  return whole_.surface.locate(faceOf(f), sum);
+  return whole_.surface.locate(part_.face[t], sum);
 }
 
 ImageSources PartSources::ofImages(

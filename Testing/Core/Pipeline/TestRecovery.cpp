@@ -759,17 +759,46 @@ TEST(Recovery, FewerFeaturesAreForThePlacesOfACoarseFailureToo)
   EXPECT_EQ(givenUpAt(run, *next), std::vector<double>({ 0.4375, 0.5625 }));
 }
 
-TEST(Recovery, FewerFeaturesEndAfterFourTimesAndFarFromFeatures)
+TEST(Recovery, FewerFeaturesBeginAnewAtAnotherPlace)
+{
+  CubeRun run;
+  const Vector3 other(1, 1, 0.5);
+  Plan plan = run.first();
+  for (int i = 0; i < 2; ++i)
+  {
+    plan = *run.nextAfter(plan, mapWithFoldsAt({ run.onEdge() }), failedQuads());
+  }
+  ASSERT_EQ(plan.dropped.size(), 2U);
+  EXPECT_EQ(plan.dropped[1].radius, 2 * plan.dropped[0].radius);
+  const std::size_t before = plan.featuresGivenUp->size();
+  plan = *run.nextAfter(plan, mapWithFoldsAt({ run.vertexAt(other) }), failedQuads());
+  ASSERT_EQ(plan.dropped.size(), 3U);
+  EXPECT_EQ(plan.dropped[2].place, other);
+  EXPECT_EQ(plan.dropped[2].radius, plan.dropped[0].radius);
+  EXPECT_EQ(plan.featuresGivenUp->size(), before + 2);
+}
+
+TEST(Recovery, FewerFeaturesReachUntilThereIsOne)
+{
+  CubeRun run;
+  const auto map = mapWithFoldsAt({ run.inFace() });
+  const std::optional<Plan> failed = run.nextAfter(run.first(), map, failedQuads());
+  expectStep(failed, "fewer features");
+  // The edges of one side are half its width away.
+  EXPECT_GT(failed->dropped[0].radius, 0.5);
+  EXPECT_FALSE(run.nextAfter(run.first(), map, quadsWith(1)));
+}
+
+TEST(Recovery, FewerFeaturesForQuadsAtFoldsEndAfterFourTimes)
 {
   CubeRun run;
   const auto map = mapWithFoldsAt({ run.onEdge() });
-  EXPECT_FALSE(run.nextAfter(run.first(), mapWithFoldsAt({ run.inFace() }), failedQuads()));
   Plan plan = run.first();
   plan.featureDrops = 3;
-  const std::optional<Plan> fourth = run.nextAfter(plan, map, failedQuads());
-  expectStep(fourth, "fewer features");
-  EXPECT_FALSE(
-    run.nextAfter(*fourth, mapWithFoldsAt({ run.vertexAt({ 1, 1, 1 }) }), failedQuads()));
+  EXPECT_TRUE(run.nextAfter(plan, map, quadsWith(1)));
+  plan.featureDrops = 4;
+  EXPECT_FALSE(run.nextAfter(plan, map, quadsWith(1)));
+  EXPECT_TRUE(run.nextAfter(plan, map, failedQuads()));
 }
 
 TEST(Recovery, FewerFeaturesAreNoHelpAgainstALimitOfQuads)
@@ -805,7 +834,7 @@ TEST(Recovery, FeaturesThatTheUserAskedForStay)
   expectStep(first, "fewer features");
   EXPECT_EQ(givenUpAt(run, *first), std::vector<double>({ 0.4375 }));
   const Index asked = run.vertexAt({ 0.75, 0, 0 });
-  EXPECT_FALSE(run.nextAfter(run.first(), mapWithFoldsAt({ asked }), failedQuads()));
+  EXPECT_FALSE(run.nextAfter(run.first(), mapWithFoldsAt({ asked }), quadsWith(1)));
 }
 
 /// All of the finer grid was tried.
