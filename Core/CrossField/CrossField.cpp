@@ -98,7 +98,7 @@ std::string fanProblem(const Fan& fan, int turns, bool asked)
   return {};
 }
 
-// Fills status and offenders.
+// Fills status and failedAt.
 void judgeTurns(const Mesh& mesh, const FieldTopology& topology,
   const TurnPrescription& prescription, const std::vector<int>& turns,
   const std::vector<std::uint8_t>& blocked, CrossField& field)
@@ -114,21 +114,21 @@ void judgeTurns(const Mesh& mesh, const FieldTopology& topology,
     {
       continue;
     }
-    if (field.offenders.empty())
+    if (field.failedAt.empty())
     {
       field.status.code = StatusCode::Infeasible;
       field.status.message = "cross field: the vertex near " +
         placeText(mesh.position[topology.fans[i].vertex]) + " would have " + problem +
         (topology.fans[i].sector ? " between two features or on the boundary" : "");
     }
-    field.offenders.push_back(topology.fans[i].vertex);
+    field.failedAt.push_back(topology.fans[i].vertex);
   }
-  if (field.offenders.size() > 1)
+  if (field.failedAt.size() > 1)
   {
     field.status.message +=
-      " (and " + std::to_string(field.offenders.size() - 1) + " more such places)";
+      " (and " + std::to_string(field.failedAt.size() - 1) + " more such places)";
   }
-  if (!field.offenders.empty())
+  if (!field.failedAt.empty())
   {
     field.status.message += "; ask for more coarse vertices, for smaller quads, or for fewer "
                             "features there (a larger feature angle, or none)";

@@ -92,7 +92,7 @@ std::string compareTopology(const TopologySummary& wanted, const QuadMesh& quads
   std::string problem;
   if (!found.manifold())
   {
-    note(problem, found.text() + " near " + describePoints(quads, found.offendingPoints));
+    note(problem, found.text() + " near " + describePoints(quads, found.defectPoints));
   }
   const auto differ = [&problem](const char* what, long long has, long long should)
   {
@@ -230,7 +230,7 @@ Status judgeFree(const Mesh& mesh, const MapCheck& check, const QuadTopology& fo
   }
   else if (!found.manifold())
   {
-    problem = found.text() + " near " + describePoints(result.mesh, found.offendingPoints);
+    problem = found.text() + " near " + describePoints(result.mesh, found.defectPoints);
   }
   else if (result.mesh.quads.empty())
   {

@@ -71,7 +71,7 @@ struct HierarchyOptions
   DecimationOrder order = DecimationOrder::Sweeps; ///< of phase 1
   RandomDraws draws;                               ///< when it is stochastic
   /// Vertices of the finest mesh that no phase may remove (index constraints; places where a map needs
-  /// more freedom, see TransferResult::offenders).
+  /// more freedom, see TransferResult::defectVertices).
   std::vector<Index> keepVertices;
   /// Guides of faces of the finest mesh, ascending by face (see surfaceGuides). Their regions keep their borders and
   /// corners in phase 2, which carries the directions to the coarse level.

@@ -142,7 +142,7 @@ TransferResult replayAndMend(const Mesh& fine, const Level& level, std::size_t r
       mendPatches(fine, result.uv, turns(), options.threads, options.progress);
     result.mendedPatches = mended.patches;
     result.notPositive = mended.notPositive;
-    result.offenders = verticesOf(fine, mended.defects);
+    result.defectVertices = verticesOf(fine, mended.defects);
   }
   return result;
 }
