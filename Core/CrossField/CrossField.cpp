@@ -23,10 +23,8 @@ namespace
 void requireInput(const Mesh& mesh, const CrossFieldOptions& options)
 {
   refuseIf(mesh.faceCount() == 0, "cross field: the mesh has no faces");
-  if (!(options.targetEdgeLength > 0) || !std::isfinite(options.targetEdgeLength))
-  {
-    throw InvalidInput("cross field: targetEdgeLength has to be positive and finite");
-  }
+  refuseIf(!(options.targetEdgeLength > 0) || !std::isfinite(options.targetEdgeLength),
+    "cross field: targetEdgeLength has to be positive and finite");
 }
 
 // Guides make what crosses them expensive, so that turns are moved round the regions that they cover.

@@ -27,12 +27,9 @@ namespace
 void checkCorners(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
   refuseIf(mesh.faceCount() == 0, "extraction: the mesh has no faces");
-  if (uv.size() != mesh.origin.size() || mesh.twin.size() != mesh.origin.size() ||
-    mesh.flags.size() != mesh.origin.size())
-  {
-    throw InvalidInput("extraction: " + std::to_string(uv.size()) + " uv for " +
-      std::to_string(mesh.origin.size()) + " corners");
-  }
+  refuseIf(uv.size() != mesh.origin.size() || mesh.twin.size() != mesh.origin.size() ||
+      mesh.flags.size() != mesh.origin.size(),
+    "extraction: ", uv.size(), " uv for ", mesh.origin.size(), " corners");
 }
 
 void checkOutOfRange(const MapCheck& check)

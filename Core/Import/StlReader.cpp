@@ -202,12 +202,9 @@ bool isBinaryStl(const std::string& path)
 SurfaceFile readBinaryStl(const std::string& path, int threads)
 {
   const std::uint64_t triangles = isBinaryStl(path) ? announcedTriangles(path) : 0;
-  if (triangles == 0 || triangles > kMostTriangles)
-  {
-    throw InvalidInput(path +
-      (triangles == 0 ? ": is no binary STL file, or its length is not that of its triangles"
-                      : ": has more than 400 million triangles"));
-  }
+  refuseIf(triangles == 0 || triangles > kMostTriangles, path,
+    triangles == 0 ? ": is no binary STL file, or its length is not that of its triangles"
+                   : ": has more than 400 million triangles");
   std::vector<float> coordinates(9 * triangles);
   constexpr std::size_t kNormalBytes = 12, kCornerBytes = 36;
   const std::size_t read = readFixedRows(path, kStlHeaderBytes, triangles, kRowBytes, threads,
@@ -256,11 +253,8 @@ SurfaceFile readTextStl(const std::string& path, int threads)
       fail("has not three vertices");
     }
   }
-  if (!isStl || coordinates.size() % 9 != 0)
-  {
-    throw InvalidInput(
-      path + (isStl ? ": ends within a facet" : ": is no STL file: it has no facets"));
-  }
+  refuseIf(!isStl || coordinates.size() % 9 != 0, path,
+    isStl ? ": ends within a facet" : ": is no STL file: it has no facets");
   return joinCorners(coordinates, threads);
 }
 
