@@ -317,8 +317,6 @@ void vtkQuadRemesh::SetSizes(quadrille::RemeshOptions& options) const
 void vtkQuadRemesh::AddSettings(std::ostream& os) const
 {
   this->Superclass::AddSettings(os);
-  const double* origin = this->SymmetryOrigin;
-  const double* normal = this->SymmetryNormal;
   os << "Method " << this->Method << '\n'
      << "Integers " << this->Integers << '\n'
      << "AnisotropyLimit " << this->AnisotropyLimit << '\n'
@@ -340,11 +338,6 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "FinalQuality " << this->FinalQuality << '\n'
      << "DistortionMetric " << this->DistortionMetric << '\n'
      << "CellDataFrom " << this->CellDataFrom << '\n'
-     << "Symmetry " << this->Symmetry << '\n'
-     << "PlaneCurve " << this->PlaneCurve << '\n'
-     << "SymmetryOrigin " << origin[0] << ' ' << origin[1] << ' ' << origin[2] << '\n'
-     << "SymmetryNormal " << normal[0] << ' ' << normal[1] << ' ' << normal[2] << '\n'
-     << "RotationOrder " << this->RotationOrder << '\n'
      << "ComputeMappedSurface " << this->ComputeMappedSurface << '\n'
      << "TextureCoordinates " << this->TextureCoordinates << '\n';
   if (this->FinalQuality != Coarse)
@@ -391,13 +384,6 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FinalQuality: " << this->FinalQuality << "\n";
   os << indent << "DistortionMetric: " << this->DistortionMetric << "\n";
   os << indent << "CellDataFrom: " << this->CellDataFrom << "\n";
-  os << indent << "Symmetry: " << this->Symmetry << "\n";
-  os << indent << "PlaneCurve: " << this->PlaneCurve << "\n";
-  os << indent << "SymmetryOrigin: " << this->SymmetryOrigin[0] << " " << this->SymmetryOrigin[1]
-     << " " << this->SymmetryOrigin[2] << "\n";
-  os << indent << "SymmetryNormal: " << this->SymmetryNormal[0] << " " << this->SymmetryNormal[1]
-     << " " << this->SymmetryNormal[2] << "\n";
-  os << indent << "RotationOrder: " << this->RotationOrder << "\n";
   os << indent << "ComputeMappedSurface: " << this->ComputeMappedSurface << "\n";
   os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
   os << indent << "TargetQuads: " << this->GetTargetQuads() << "\n";

@@ -4,7 +4,7 @@
 
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
-#include "PhaseOrders.h"
+#include "PreparedFile.h"
 
 #include <Eigen/Geometry>
 

@@ -10,7 +10,6 @@
 #include "FieldCounts.h"
 #include "MeshFiles.h"
 #include "Options.h"
-#include "PhaseOrders.h"
 #include "RemeshRun.h"
 #include "ReplayCounts.h"
 
@@ -36,8 +35,6 @@ constexpr const char* kIntroduction =
   R"(usage: quadrille-bench MESH... [--quads N | --edge-length S] [--threads N] [--repeat N]
        quadrille-bench MESH... --compare replay [--quads N] [--threads N]
        quadrille-bench MESH... --compare field [--quads N] [--threads N]
-       quadrille-bench MESH... --compare orders [--quads N] [--candidates N] [--exact-below N] [--threads N]
-         [--repeat N]
        quadrille-bench MESH... --compare coarse [--quads N] [--coarse-vertices N] [--repeat N]
        quadrille-bench MESH... --compare extraction [--quads N] [--subdivide N] [--threads N] [--repeat N]
 
@@ -62,15 +59,6 @@ With --compare field computes the cross field of each mesh on all of its refined
 with the irregular vertices of both fields, the second over the first, and whether quads came of it. At most 500,000
 refined faces.
 
-)";
-
-constexpr const char* kOrders =
-  R"(With --compare orders runs phase 1 only, in each of its orders (sweeps, heap, stochastic), and writes
-  mesh,repeat,order,threads,seconds,faces,vertices,intermediate_vertices,short_percent,edge_5,edge_50,edge_95,
-  deviation,quality
-where short_percent of the edges are shorter than half the target edge length, 5, 50 and 95 percent of them are shorter
-than edge_* in target edge lengths, deviation is the standard deviation of the lengths over their mean, and quality the
-mean quality of the triangles (1: all equilateral).
 )";
 
 constexpr const char* kCoarse =
@@ -108,17 +96,15 @@ struct Request
   double edgeLength = 0; ///< 0: quads
   int threads = 0;
   long long repeat = 1;
-  /// "orders": only phase 1, in all orders; "replay": counts of the replay; "field": irregular vertices; "coarse":
-  /// times of the coarse level; "extraction": times of the extraction
+  /// "replay": counts of the replay; "field": irregular vertices; "coarse": times of the coarse level; "extraction":
+  /// times of the extraction
   std::string compared;
   Index coarseVertices = 1000;
   int subdivide = 0;
   int method = 0; ///< of vtkQuadRemesh::Methods
-  RandomDraws draws;
 };
 
-const std::vector<std::string> kComparisons = { "orders", "replay", "field", "coarse",
-  "extraction" };
+const std::vector<std::string> kComparisons = { "replay", "field", "coarse", "extraction" };
 
 void addOptions(CommandOptions& options, Request& request)
 {
@@ -144,22 +130,13 @@ void addOptions(CommandOptions& options, Request& request)
     "equation and relations, quantize the rounding");
   options.addChoice(
     "compare", "NAME", kComparisons,
-    [&request](int place) { request.compared = kComparisons[static_cast<std::size_t>(place)]; },
-    "orders, replay, field, coarse or extraction: compares instead, as told here");
+    [&request](int name) { request.compared = kComparisons[static_cast<std::size_t>(name)]; },
+    "replay, field, coarse or extraction: compares instead, as told here");
 }
 
 /// Those that only one comparison has.
 void addComparisons(CommandOptions& options, Request& request)
 {
-  options.beginGroup(kOrders);
-  options.addCount(
-    "candidates", "N", { 1, 1000000 },
-    [&request](long long count) { request.draws.candidates = static_cast<int>(count); },
-    "vertices of a draw of the stochastic order (default 8)");
-  options.addCount(
-    "exact-below", "N", { 0, 4000000000 },
-    [&request](long long count) { request.draws.exactBelow = static_cast<Index>(count); },
-    "number of vertices below which the heap takes over there (default 1000000)");
   options.beginGroup(kCoarse);
   options.addCount(
     "coarse-vertices", "N", { 4, 1000000000 },
@@ -186,10 +163,6 @@ void checkTogether(const CommandOptions& options, const Request& request)
   if (request.compared != "coarse" && options.given("coarse-vertices"))
   {
     throw UsageError("--coarse-vertices is for --compare coarse");
-  }
-  if (request.compared != "orders" && (options.given("candidates") || options.given("exact-below")))
-  {
-    throw UsageError("--candidates and --exact-below are for --compare orders");
   }
   if (request.compared != "extraction" && options.given("subdivide"))
   {
@@ -262,15 +235,11 @@ int compare(const std::string& mesh, const Request& request)
       printCoarse(mesh,
         { quads, request.coarseVertices, static_cast<MapMethod>(request.method), request.repeat });
     }
-    else if (request.compared == "extraction")
+    else
     {
       return printExtraction(mesh, { quads, request.threads, request.subdivide, request.repeat })
         ? kValidQuads
         : kNoValidResult;
-    }
-    else
-    {
-      printOrders(mesh, { quads, request.threads, request.repeat, request.draws });
     }
     return kValidQuads;
   }
@@ -352,11 +321,10 @@ int runInChild(const std::string& mesh, long long repeat, const Request& request
 
 int compareAll(const std::vector<std::string>& meshes, const Request& request)
 {
-  request.compared == "replay"         ? printReplayHeader()
-    : request.compared == "field"      ? printFieldCountsHeader()
-    : request.compared == "coarse"     ? printCoarseHeader()
-    : request.compared == "extraction" ? printExtractionHeader()
-                                       : printOrdersHeader();
+  request.compared == "replay"     ? printReplayHeader()
+    : request.compared == "field"  ? printFieldCountsHeader()
+    : request.compared == "coarse" ? printCoarseHeader()
+                                   : printExtractionHeader();
   int worst = 0;
   for (const std::string& mesh : meshes)
   {

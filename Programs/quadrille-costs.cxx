@@ -6,7 +6,7 @@
 #include "Evaluation/SingularityDistance.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Options.h"
-#include "PhaseOrders.h"
+#include "PreparedFile.h"
 #include "Transfer/ExpectedTurns.h"
 
 #include <algorithm>

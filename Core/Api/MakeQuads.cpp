@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Error.h"
+#include "Base/Refuse.h"
 #include "Pipeline/Pipeline.h"
 
 #include <algorithm>
@@ -22,11 +23,8 @@ template <class Values>
 void requireOneEach(
   const Values& values, std::size_t count, const std::string& name, const std::string& element)
 {
-  if (!values.empty() && values.size() != count)
-  {
-    throw InvalidInput(name + " has " + std::to_string(values.size()) + " values, but there are " +
-      std::to_string(count) + " " + element + ": it has to have one each, or none");
-  }
+  refuseIf(!values.empty() && values.size() != count, name, " has ", values.size(),
+    " values, but there are ", count, " ", element, ": it has to have one each, or none");
 }
 
 std::vector<Vector3> vectorsOf(const std::vector<std::array<double, 3>>& tuples)
@@ -45,11 +43,9 @@ SurfaceInput inputOf(const TriangleMesh& mesh)
   requireOneEach(mesh.guidingDirections, triangles, "guidingDirections", "triangles");
   requireOneEach(mesh.sizing, mesh.points.size(), "sizing", "points");
   // Corners of triangles are half-edges of the mesh, whose ids have 32 bits.
-  if (triangles >= kInvalidIndex / 3 || mesh.points.size() >= kInvalidIndex)
-  {
-    throw InvalidInput("the mesh has " + std::to_string(triangles) + " triangles and " +
-      std::to_string(mesh.points.size()) + " points: that is more than 32-bit ids can name");
-  }
+  refuseIf(triangles >= kInvalidIndex / 3 || mesh.points.size() >= kInvalidIndex, "the mesh has ",
+    triangles, " triangles and ", mesh.points.size(),
+    " points: that is more than 32-bit ids can name");
   SurfaceInput input;
   input.points = vectorsOf(mesh.points);
   input.polygonOffsets.resize(triangles + 1);
@@ -68,12 +64,10 @@ SurfaceInput inputOf(const TriangleMesh& mesh)
 
 RemeshOptions runOptionsOf(const QuadOptions& options)
 {
-  if (options.quads.has_value() + options.edgeLength.has_value() +
-      options.relativeEdgeLength.has_value() >
-    1)
-  {
-    throw InvalidInput("only one of quads, edgeLength and relativeEdgeLength can be given");
-  }
+  refuseIf(options.quads.has_value() + options.edgeLength.has_value() +
+        options.relativeEdgeLength.has_value() >
+      1,
+    "only one of quads, edgeLength and relativeEdgeLength can be given");
   if (options.featureAngle && !(*options.featureAngle > 0 && *options.featureAngle <= 180))
   {
     throw InvalidInput("featureAngle is " + std::to_string(*options.featureAngle) +

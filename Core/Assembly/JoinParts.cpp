@@ -3,8 +3,8 @@
 #include "Assembly/JoinParts.h"
 
 #include "Base/DisjointSets.h"
-#include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 
 #include <Eigen/Geometry>
 
@@ -308,11 +308,9 @@ PartContacts findContacts(const std::vector<const SurfaceInput*>& parts)
   {
     contacts.firstPoint.push_back(static_cast<Index>(points));
     points += part->points.size();
-    if (points >= kInvalidIndex)
-    {
-      throw InvalidInput("the parts have more than 4294967294 points in all: reduce them first, or "
-                         "remesh them apart");
-    }
+    refuseIf(points >= kInvalidIndex,
+      "the parts have more than 4294967294 points in all: reduce them first, or "
+      "remesh them apart");
   }
   contacts.firstPoint.push_back(static_cast<Index>(points));
   const CommonPlaces places(parts, contacts.firstPoint);
@@ -406,11 +404,8 @@ Index JoinedParts::partOf(Index polygon) const
 
 JoinedParts joinParts(std::vector<SurfaceInput> parts, const PartContacts& contacts)
 {
-  if (parts.size() < 2 || contacts.group.size() != parts.size())
-  {
-    throw InvalidInput(
-      "at least two parts are needed to join them, with the contacts between them");
-  }
+  refuseIf(parts.size() < 2 || contacts.group.size() != parts.size(),
+    "at least two parts are needed to join them, with the contacts between them");
   JoinedParts joined;
   SurfaceInput& all = joined.input;
   all.patchesYield = true;

@@ -26,7 +26,7 @@ int turnsWithin(const std::vector<FixedVec2>& uv, const std::vector<Index>& corn
     const FixedVec2 origin = uv[h], next = uv[Mesh::next(h)], previous = uv[Mesh::previous(h)];
     const Vector2 a(toDouble(next.u - origin.u), toDouble(next.v - origin.v));
     const Vector2 b(toDouble(previous.u - origin.u), toDouble(previous.v - origin.v));
-    angle += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    angle += std::atan2(parallelogram(a, b), a.dot(b));
   }
   return static_cast<int>(std::lround(angle / (0.5 * kPi)));
 }

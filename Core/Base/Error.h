@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// How Core tells of failures: a violated precondition throws InvalidInput, a cancelled run throws
-/// Cancelled (caught by Pipeline only), an expected failure is a Status in the result.
+/// How Core tells of failures: a violated precondition throws InvalidInput, a stop throws Cancelled, which
+/// only runs catch (Pipeline, Symmetry, Pieces), an expected failure is a Status in the result.
 #pragma once
 
 #include <stdexcept>

@@ -25,7 +25,7 @@ void sortUnique(List& list)
 
 /// Where a value stands among ascending ones that have it.
 template <typename Values>
-Index placeIn(const Values& values, Index value)
+Index indexIn(const Values& values, Index value)
 {
   const auto found = std::lower_bound(values.begin(), values.end(), value);
   assert(found != values.end() && *found == value);

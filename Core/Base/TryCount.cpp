@@ -11,11 +11,11 @@ thread_local TryScope* innermostTries = nullptr;
 
 constexpr std::array<TryRow, kTries> kTryRows{ {
   { "pipeline", "more freedom",
-    "intermediate vertices near offenders are kept, or both levels get twice the budget",
+    "intermediate vertices near failures are kept, or both levels get twice the budget",
     "2 in a row" },
   { "pipeline", "room for curves", "vertices round places without room for curves are kept",
     "1 a round" },
-  { "pipeline", "kept offenders", "vertices of the surface's bad triangles are kept on all levels",
+  { "pipeline", "kept defects", "vertices of the surface's bad triangles are kept on all levels",
     "2 a round" },
   { "pipeline", "smaller quads near", "sizes are halved where quads of the coarse map touch",
     "4 in a row" },
@@ -43,7 +43,7 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
   { "map", "curves by halves", "curves are added half by half", "as many as curves" },
   { "map", "irregular only at ends", "irregular vertices at the ends of curves only", "1" },
   { "map", "other scale", "integers at a corrected scale for the number of quads", "4" },
-  { "map", "other integers", "integers with room round the offenders of the embedding", "4" },
+  { "map", "other integers", "integers with room where the embedding failed", "4" },
   { "map", "seamless near the earlier", "the seamless map starts from the earlier one", "1" },
   { "map", "embedded near the earlier", "the embedding starts from the earlier one", "1" },
   { "map", "more weight, seamless", "more weight round defects of the seamless map", "4" },

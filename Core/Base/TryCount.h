@@ -17,7 +17,7 @@ enum class Try : std::uint8_t
 {
   MoreFreedom,
   RoomForCurves,
-  KeptOffenders,
+  KeptDefects,
   SmallerQuadsNear,
   MoreQuads,
   FewerBorders,

@@ -23,10 +23,8 @@ namespace
 void requireInput(const Mesh& mesh, const CrossFieldOptions& options)
 {
   refuseIf(mesh.faceCount() == 0, "cross field: the mesh has no faces");
-  if (!(options.targetEdgeLength > 0) || !std::isfinite(options.targetEdgeLength))
-  {
-    throw InvalidInput("cross field: targetEdgeLength has to be positive and finite");
-  }
+  refuseIf(!(options.targetEdgeLength > 0) || !std::isfinite(options.targetEdgeLength),
+    "cross field: targetEdgeLength has to be positive and finite");
 }
 
 // Guides make what crosses them expensive, so that turns are moved round the regions that they cover.
@@ -98,7 +96,7 @@ std::string fanProblem(const Fan& fan, int turns, bool asked)
   return {};
 }
 
-// Fills status and offenders.
+// Fills status and failedAt.
 void judgeTurns(const Mesh& mesh, const FieldTopology& topology,
   const TurnPrescription& prescription, const std::vector<int>& turns,
   const std::vector<std::uint8_t>& blocked, CrossField& field)
@@ -114,21 +112,21 @@ void judgeTurns(const Mesh& mesh, const FieldTopology& topology,
     {
       continue;
     }
-    if (field.offenders.empty())
+    if (field.failedAt.empty())
     {
       field.status.code = StatusCode::Infeasible;
       field.status.message = "cross field: the vertex near " +
         placeText(mesh.position[topology.fans[i].vertex]) + " would have " + problem +
         (topology.fans[i].sector ? " between two features or on the boundary" : "");
     }
-    field.offenders.push_back(topology.fans[i].vertex);
+    field.failedAt.push_back(topology.fans[i].vertex);
   }
-  if (field.offenders.size() > 1)
+  if (field.failedAt.size() > 1)
   {
     field.status.message +=
-      " (and " + std::to_string(field.offenders.size() - 1) + " more such places)";
+      " (and " + std::to_string(field.failedAt.size() - 1) + " more such places)";
   }
-  if (!field.offenders.empty())
+  if (!field.failedAt.empty())
   {
     field.status.message += "; ask for more coarse vertices, for smaller quads, or for fewer "
                             "features there (a larger feature angle, or none)";

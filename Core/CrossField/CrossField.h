@@ -98,14 +98,14 @@ struct CrossField
   Status status;
   /// Vertices around which the mesh cannot carry the turns; empty when the status is ok. One vertex may
   /// stand here for several of its sectors.
-  std::vector<Index> offenders;
+  std::vector<Index> failedAt;
 };
 
 /// Computes the field. Never makes an interior valence below 3 or above 6 or a sector below one quarter
 /// turn unless it is asked to or topology forces it; then the status says where. Target valences that
-/// the free vertices of their component cannot complete are Infeasible without offenders: nothing that the mesh could
-/// change helps. Ok also means that positive angles exist in all
-/// triangles that add up to the turns of every fan, without which no map could follow the field.
+/// the free vertices of their component cannot complete are Infeasible with an empty failedAt: nothing that the mesh
+/// could change helps. Ok also means that positive angles exist in all triangles that add up to the turns of every fan,
+/// without which no map could follow the field.
 CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options);
 
 /// Vertices whose position in the map must be an integer point: interior ones with turns != 4, and

@@ -85,7 +85,7 @@ public:
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        part.mesh.origin.push_back(placeIn(part.vertex, mesh_.origin[h]));
+        part.mesh.origin.push_back(indexIn(part.vertex, mesh_.origin[h]));
       }
     }
     for (const std::vector<std::vector<Index>>& loops : loopsOfPieces())
@@ -247,8 +247,8 @@ private:
       const Index middle = addVertex(part);
       for (std::size_t k = 0; k < loop.size(); ++k)
       {
-        const Triangle face{ placeIn(part.vertex, loop[(k + 1) % loop.size()]),
-          placeIn(part.vertex, loop[k]), middle };
+        const Triangle face{ indexIn(part.vertex, loop[(k + 1) % loop.size()]),
+          indexIn(part.vertex, loop[k]), middle };
         if (k == 0 && i > 0)
         {
           addFrame(face, { joint[0], joint[2], joint[1] }, part);

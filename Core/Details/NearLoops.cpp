@@ -38,7 +38,7 @@ std::optional<LoopSearch::Loop> shortestAt(
   std::optional<LoopSearch::Loop> best;
   for (const Index root : place)
   {
-    const Index from = part != nullptr ? placeIn(part->vertex, root) : root;
+    const Index from = part != nullptr ? indexIn(part->vertex, root) : root;
     if (std::optional<LoopSearch::Loop> loop = search.shortest(from, best ? best->length : bound))
     {
       best = std::move(loop);

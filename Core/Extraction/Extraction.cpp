@@ -27,12 +27,9 @@ namespace
 void checkCorners(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
   refuseIf(mesh.faceCount() == 0, "extraction: the mesh has no faces");
-  if (uv.size() != mesh.origin.size() || mesh.twin.size() != mesh.origin.size() ||
-    mesh.flags.size() != mesh.origin.size())
-  {
-    throw InvalidInput("extraction: " + std::to_string(uv.size()) + " uv for " +
-      std::to_string(mesh.origin.size()) + " corners");
-  }
+  refuseIf(uv.size() != mesh.origin.size() || mesh.twin.size() != mesh.origin.size() ||
+      mesh.flags.size() != mesh.origin.size(),
+    "extraction: ", uv.size(), " uv for ", mesh.origin.size(), " corners");
 }
 
 void checkOutOfRange(const MapCheck& check)
@@ -92,7 +89,7 @@ std::string compareTopology(const TopologySummary& wanted, const QuadMesh& quads
   std::string problem;
   if (!found.manifold())
   {
-    note(problem, found.text() + " near " + describePoints(quads, found.offendingPoints));
+    note(problem, found.text() + " near " + describePoints(quads, found.defectPoints));
   }
   const auto differ = [&problem](const char* what, long long has, long long should)
   {
@@ -230,7 +227,7 @@ Status judgeFree(const Mesh& mesh, const MapCheck& check, const QuadTopology& fo
   }
   else if (!found.manifold())
   {
-    problem = found.text() + " near " + describePoints(result.mesh, found.offendingPoints);
+    problem = found.text() + " near " + describePoints(result.mesh, found.defectPoints);
   }
   else if (result.mesh.quads.empty())
   {

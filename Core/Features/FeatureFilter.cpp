@@ -99,7 +99,7 @@ private:
     std::vector<Index> path{ start };
     while (true)
     {
-      done[placeIn(edges_, h)] = 1;
+      done[indexIn(edges_, h)] = 1;
       chain.halfEdges.push_back(h);
       chain.length += mesh_.edgeVector(h).norm();
       chain.sizedLength += sizedLength(mesh_, h);
@@ -112,7 +112,7 @@ private:
         break;
       }
       const Index next = at_.otherThan(h, v);
-      if (done[placeIn(edges_, next)] != 0)
+      if (done[indexIn(edges_, next)] != 0)
       {
         break; // a closed loop without a node
       }

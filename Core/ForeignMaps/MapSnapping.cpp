@@ -35,11 +35,8 @@ void checkSnapArguments(
 {
   const std::string corners = std::to_string(mesh.origin.size()) + " corners";
   refuseIf(uv.size() != mesh.origin.size(), "map: ", uv.size(), " uv for ", corners);
-  if (!options.matching.empty() && options.matching.size() != mesh.origin.size())
-  {
-    throw InvalidInput(
-      "map: " + std::to_string(options.matching.size()) + " quarter turns for " + corners);
-  }
+  refuseIf(!options.matching.empty() && options.matching.size() != mesh.origin.size(),
+    "map: ", options.matching.size(), " quarter turns for ", corners);
   if (!(options.valueError >= 0 && options.valueError <= 0.02))
   {
     std::ostringstream text;

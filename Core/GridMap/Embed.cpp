@@ -234,7 +234,7 @@ void failEmbedding(const Mesh& mesh, StatusCode code, const std::string& message
   const MapDefects& cause, EmbedResult& result)
 {
   result.status = { code, "embedding: " + message };
-  result.offenders = verticesOf(mesh, cause);
+  result.failedAt = verticesOf(mesh, cause);
   result.inverted = findNotPositive(mesh, result.uv);
 }
 

@@ -36,7 +36,7 @@ struct EmbedResult
   Status status;
   std::vector<Index> inverted; ///< faces left with !(det > 0)
   std::vector<Index>
-    offenders; ///< vertices round which the triangulation leaves no map with these integers
+    failedAt; ///< vertices round which the triangulation leaves no map with these integers
   int newtonSteps = 0;
   bool startedFromPrevious = false;
 };

@@ -92,7 +92,7 @@ void FieldOfMap::followCurves(CrossFieldOptions fieldOptions)
       result_.field = std::move(led);
       return;
     }
-    result_.curveOffenders = std::move(led.offenders);
+    result_.curvesFailedAt = std::move(led.failedAt);
   }
 }
 

@@ -85,7 +85,7 @@ public:
     }
     maximumSteps_ = std::max(kStepsOfTry, kStepsOverPlain * plain.seamlessSteps);
     const std::size_t unfollowed = countUnfollowed(plain); // whatever the curves are
-    const std::vector<Index> offenders = first.status.ok() ? first.curveOffenders : first.offenders;
+    const std::vector<Index> failedAt = first.status.ok() ? first.curvesFailedAt : first.failedAt;
     Ways ways = straightWays(plain, first.curves);
     if (first.status.ok())
     {
@@ -129,7 +129,7 @@ public:
     if (!isWhole(best))
     {
       best = withFewer(std::move(best), std::move(bestTry), std::move(plain), leftOut, ways);
-      best.curveOffenders = offenders;
+      best.curvesFailedAt = failedAt;
     }
     return finish(std::move(best));
   }

@@ -101,14 +101,14 @@ struct GridMapResult : MapWork
   CrossField field;
   Certificate certificate;
   MapReuse reuse;
-  Status status;                ///< not ok: why and where; uv then holds the best that was reached
-  std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
+  Status status;               ///< not ok: why and where; uv then holds the best that was reached
+  std::vector<Index> failedAt; ///< coarse vertices around which the triangulation lacks freedom
   /// Faces that no map with the field gives any area, as the arcs of features round patches leave none; not from the
   /// methods that round.
   std::size_t collapsedFaces = 0;
   std::vector<CurveOutcome> curves; ///< what became of GridMapOptions::curves
   /// Coarse vertices round which the triangulation lacks freedom for all curves, where some were left out.
-  std::vector<Index> curveOffenders;
+  std::vector<Index> curvesFailedAt;
   double refinement = 1; ///< of the component whose sizes had to shrink most
   /// The share of the area whose ratio of stretches is above the limit after all; 0 without limit, or where the status
   /// is not ok.
@@ -116,7 +116,7 @@ struct GridMapResult : MapWork
   std::size_t components = 0, failedComponents = 0;
 };
 /// The whole chain on one coarse mesh. Its connected components are solved one by one; each gets quads by its area, and
-/// all are tried, so that offenders tells about every one that fails.
+/// all are tried, so that failedAt tells about every one that fails.
 GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options);
 
 /// What the next map can start from; the status of `map` must be ok. vertexIds: #V of its mesh.

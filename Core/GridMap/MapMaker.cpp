@@ -76,7 +76,7 @@ struct Component
   double triedRefinement = 1, refinement = 1;
   bool seamlessReused = false, integersReused = false, embedReused = false;
   Status status;
-  std::vector<Index> offenders; ///< vertices of the part
+  std::vector<Index> failedAt; ///< vertices of the part
 
   const CarriedMap* earlier() const { return previous.knownFaces > 0 ? &previous : nullptr; }
 
@@ -84,7 +84,7 @@ struct Component
   {
     status = why;
     uv = std::move(best);
-    offenders = std::move(where);
+    failedAt = std::move(where);
   }
 };
 
@@ -156,7 +156,7 @@ double ratioToTarget(const std::vector<Component>& components, double wanted, do
 std::string explain(const std::vector<Component>& components, std::size_t i, std::size_t failures)
 {
   const Component& component = components[i];
-  const Index v = component.offenders.empty() ? 0 : component.offenders.front();
+  const Index v = component.failedAt.empty() ? 0 : component.failedAt.front();
   std::ostringstream text;
   if (components.size() > 1)
   {
@@ -187,7 +187,7 @@ public:
     if (!result_.field.status.ok())
     {
       result_.status = result_.field.status;
-      result_.offenders = result_.field.offenders;
+      result_.failedAt = result_.field.failedAt;
       return std::move(result_);
     }
     field_.addLines();
@@ -400,7 +400,7 @@ private:
       {
         result_.collapsedFaces += seamless.collapsed;
         component.fail(seamless.status, std::move(seamless.uv),
-          join(cornerVertices(part.mesh, seamless.inverted), seamless.offenders));
+          join(cornerVertices(part.mesh, seamless.inverted), seamless.failedAt));
       }
       return false;
     }
@@ -470,7 +470,7 @@ private:
       embedOptions.seamlessUv = failures() == 0 ? &component.startUv : nullptr;
       embedOptions.previous = component.earlier();
       embedOptions.anisotropyLimit = options_.anisotropyLimit;
-      embedOptions.failedBefore = embedded.offenders;
+      embedOptions.failedBefore = embedded.failedAt;
       embedOptions.progress = progress;
       {
         const TimedScope timed(result_.secondsEmbed, result_.processorEmbed);
@@ -490,7 +490,7 @@ private:
         break;
       }
       countTry(Try::OtherIntegers);
-      watched = join(std::move(watched), embedded.offenders);
+      watched = join(std::move(watched), embedded.failedAt);
       QuantizeResult quantized = quantize(component, component.startUv, watched, progress);
       if (!quantized.status.ok() || contains(tried, quantized.uv))
       {
@@ -501,7 +501,7 @@ private:
       component.uv = std::move(quantized.uv);
     }
     component.fail(embedded.status, std::move(embedded.uv),
-      join(cornerVertices(part.mesh, embedded.inverted), embedded.offenders));
+      join(cornerVertices(part.mesh, embedded.inverted), embedded.failedAt));
   }
 
   /// The maps of the components become one.
@@ -516,35 +516,35 @@ private:
       // What a block grows by is a few quads.
       result_.refinement = std::max(
         result_.refinement, isBlock(component, options_.targetQuads) ? 1.0 : component.refinement);
-      const auto place = [&](Index h) { return 3 * component.part.face[Mesh::face(h)] + h % 3; };
+      const auto halfEdge = [&](Index h) { return 3 * component.part.face[Mesh::face(h)] + h % 3; };
       for (Index h = 0; h < component.uv.size(); ++h)
       {
-        result_.uv[place(h)] = component.uv[h];
+        result_.uv[halfEdge(h)] = component.uv[h];
       }
       for (Index h = 0; h < component.startUv.size(); ++h)
       {
-        result_.seamlessUv[place(h)] = component.startUv[h];
+        result_.seamlessUv[halfEdge(h)] = component.startUv[h];
       }
       result_.reuse.seamless += component.seamlessReused ? 1 : 0;
       result_.reuse.integers += component.integersReused ? 1 : 0;
       result_.reuse.embedded += component.embedReused ? 1 : 0;
-      for (const Index v : component.offenders)
+      for (const Index v : component.failedAt)
       {
-        result_.offenders.push_back(component.part.vertex[v]);
+        result_.failedAt.push_back(component.part.vertex[v]);
       }
       if (!component.status.ok() && result_.failedComponents++ == 0)
       {
         result_.status = { component.status.code, explain(components_, i, failures()) };
       }
     }
-    std::sort(result_.offenders.begin(), result_.offenders.end());
+    std::sort(result_.failedAt.begin(), result_.failedAt.end());
     result_.certificate =
       certify(mesh_, result_.uv, result_.field.turns, integerVertices(mesh_, result_.field));
     if (result_.status.ok() && !hasPromised(result_.certificate, options_.method))
     {
       result_.status = { StatusCode::NotConverged,
         "the coarse map does not pass its certificate: " + result_.certificate.text() };
-      result_.offenders = cornerVertices(mesh_, result_.certificate.worstFaces);
+      result_.failedAt = cornerVertices(mesh_, result_.certificate.worstFaces);
     }
     field_.judgeLines();
     if (options_.anisotropyLimit > 0 && result_.status.ok())

@@ -15,7 +15,7 @@ namespace quadrille
 struct MeshPart
 {
   Mesh mesh;
-  CrossField field;          ///< without status and offenders
+  CrossField field;          ///< without status and failedAt
   std::vector<Index> vertex; ///< of the whole mesh, per vertex of the part; ascending
   std::vector<Index>
     face; ///< of the whole mesh, per face of the part; ascending, corners in the same order

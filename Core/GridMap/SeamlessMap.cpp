@@ -25,9 +25,9 @@ void failSeamless(const Mesh& mesh, StatusCode code, const std::string& message,
 {
   result.status = { code, "seamless map: " + message };
   result.inverted = defects.notPositive;
-  if (result.offenders.empty())
+  if (result.failedAt.empty())
   {
-    result.offenders = verticesOf(mesh, defects);
+    result.failedAt = verticesOf(mesh, defects);
   }
 }
 
@@ -35,11 +35,11 @@ void failSeamless(const Mesh& mesh, StatusCode code, const std::string& message,
 bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace& space,
   const MapDefects& defects, SeamlessResult& result)
 {
-  result.offenders = crowdedVertices(mesh, field);
-  if (!result.offenders.empty())
+  result.failedAt = crowdedVertices(mesh, field);
+  if (!result.failedAt.empty())
   {
     failSeamless(mesh, StatusCode::Infeasible,
-      std::to_string(result.offenders.size()) +
+      std::to_string(result.failedAt.size()) +
         " vertices have too few triangles for their quarter turns",
       defects, result);
     return true;
@@ -50,7 +50,7 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
   {
     return false;
   }
-  result.offenders = verticesOf(mesh, collapsed);
+  result.failedAt = verticesOf(mesh, collapsed);
   failSeamless(mesh, StatusCode::Infeasible,
     "features and irregular vertices leave no area to " +
       std::to_string(collapsed.notPositive.size()) + " triangles",
@@ -109,7 +109,7 @@ void explain(
   {
     MapDefects ends = defects;
     ends.reversed.insert(ends.reversed.end(), chords.begin(), chords.end());
-    result.offenders = verticesOf(mesh, ends);
+    result.failedAt = verticesOf(mesh, ends);
     cause = "; " + std::to_string(chords.size()) +
       " edges are chords of straight features, with no vertex between them";
   }

@@ -213,16 +213,16 @@ Form difference(const ExactBasis::Row& a, const ExactBasis::Row& b, std::int64_t
   }
   for (const auto& [id, numerator] : b.numerators)
   {
-    const auto place = std::lower_bound(result.begin(), result.end(), id,
+    const auto found = std::lower_bound(result.begin(), result.end(), id,
       [](const auto& term, Index wanted) { return term.first < wanted; });
     const std::int64_t value = -numerator * (common / b.denominator);
-    if (place != result.end() && place->first == id)
+    if (found != result.end() && found->first == id)
     {
-      place->second += value;
+      found->second += value;
     }
     else
     {
-      result.insert(place, { id, value });
+      result.insert(found, { id, value });
     }
   }
   eraseIf(result, [](const auto& term) { return term.second == 0; });

@@ -9,7 +9,6 @@
 #include "Hierarchy/ComponentShares.h"
 #include "Hierarchy/GaussianCurvatureCost.h"
 #include "Hierarchy/GuideRegions.h"
-#include "Hierarchy/LazyHeap.h"
 #include "Hierarchy/VertexRemoval.h"
 
 #include <Eigen/Geometry>
@@ -107,7 +106,18 @@ public:
   BudgetResult run();
 
 private:
-  using Entry = LazyHeapEntry;
+  /// Of the heap: the cheapest comes first, of two equally cheap vertices the lower id. Outdated entries stay in it and
+  /// are skipped.
+  struct Entry
+  {
+    float cost = 0;
+    Index vertex = 0;
+    Index version = 0; ///< outdated when the vertex has a later one
+    bool operator<(const Entry& other) const
+    {
+      return cost != other.cost ? cost > other.cost : vertex > other.vertex;
+    }
+  };
   using Heap = std::priority_queue<Entry>;
   struct Stage
   {

@@ -117,14 +117,14 @@ RestoredLevel ChangedMesh::apply(const RestoredLevel& before) const
     }
     const Index name = names_.vertex[v];
     result.curveError.push_back(
-      name == kInvalidIndex ? 0.0F : before.curveError[placeIn(old.fineVertex, name)]);
+      name == kInvalidIndex ? 0.0F : before.curveError[indexIn(old.fineVertex, name)]);
   }
   const auto slotNow = [&](Index fineSlot)
-  { return 3 * placeIn(level.fineFace, fineSlot / 3) + fineSlot % 3; };
+  { return 3 * indexIn(level.fineFace, fineSlot / 3) + fineSlot % 3; };
   for (const Index f : level.fineFace)
   {
     const Index name = names_.face[f];
-    const Index oldFace = name == kInvalidIndex ? kInvalidIndex : placeIn(old.fineFace, name);
+    const Index oldFace = name == kInvalidIndex ? kInvalidIndex : indexIn(old.fineFace, name);
     for (Index i = 0; i < 3; ++i)
     {
       const Index h = 3 * f + i;
@@ -135,7 +135,7 @@ RestoredLevel ChangedMesh::apply(const RestoredLevel& before) const
       const Index oldSlot = 3 * oldFace + i;
       const Index v =
         isFineFace ? fine_.origin[h] : newVertex_[old.fineVertex[old.mesh.origin[oldSlot]]];
-      level.mesh.origin.push_back(placeIn(level.fineVertex, v));
+      level.mesh.origin.push_back(indexIn(level.fineVertex, v));
       Index twin = fine_.twin[h];
       if (!isFineEdge)
       {
@@ -151,12 +151,12 @@ RestoredLevel ChangedMesh::apply(const RestoredLevel& before) const
     const Index now = newVertex_[old.fineVertex[v]];
     if (now != kInvalidIndex)
     {
-      result.touched.push_back(placeIn(level.fineVertex, now));
+      result.touched.push_back(indexIn(level.fineVertex, now));
     }
   }
   for (const Index v : changedVertices_)
   {
-    result.touched.push_back(placeIn(level.fineVertex, v));
+    result.touched.push_back(indexIn(level.fineVertex, v));
   }
   sortUnique(result.touched);
   return result;

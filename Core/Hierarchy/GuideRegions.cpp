@@ -432,17 +432,15 @@ void GuideCarrier::mapToPlane(const VertexRemoval& removal)
 /// The face of the side that contains the point, or comes nearest to that.
 std::size_t GuideCarrier::containing(const Vector2& point, int side) const
 {
-  const auto cross = [](const Vector2& a, const Vector2& b)
-  { return a.x() * b.y() - a.y() * b.x(); };
   double best = -std::numeric_limits<double>::infinity();
   std::size_t found = 0;
   for (std::size_t i = 0; i < faces_.size(); ++i)
   {
     const Vector2& a = planar_[i];
     const Vector2& b = planar_[next(i)];
-    const double area = cross(a, b);
-    const double u = cross(point, b) / area;
-    const double v = cross(a, point) / area;
+    const double area = parallelogram(a, b);
+    const double u = parallelogram(point, b) / area;
+    const double v = parallelogram(a, point) / area;
     const double inside = std::min({ u, v, 1 - u - v });
     if (faces_[i].side == side && area > 0 && inside > best)
     {

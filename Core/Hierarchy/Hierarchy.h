@@ -24,28 +24,6 @@ enum class DecimationCost
   Uniform         ///< E_uni: shortest incident edge; the same
 };
 
-/// Which vertex phase 1 removes next. All orders obey the same guards and end when no edge is shorter than s/2. A run
-/// takes the sweeps; the others are there to compare with (OrderedDecimation.h).
-enum class DecimationOrder
-{
-  Sweeps, ///< in storage order while a threshold rises; parallel
-  Heap,   ///< the one with the shortest edge [Ebke et al. 2016, Section 5.3]; one thread
-  Stochastic ///< the best of a few drawn at random, at last by the heap [the same, Section 7]; one thread
-};
-
-/// Of DecimationOrder::Stochastic.
-struct RandomDraws
-{
-  int candidates = 8;         ///< vertices of a draw, >= 1
-  Index exactBelow = 1000000; ///< the heap takes over below this number of vertices
-  std::uint64_t seed = 1;
-
-  bool operator==(const RandomDraws& other) const
-  {
-    return candidates == other.candidates && exactBelow == other.exactBelow && seed == other.seed;
-  }
-};
-
 /// A budget of the coarse level that follows the surface [after the same, Section 10]. Each removal moves curvature,
 /// half of E_G, about an edge far. Singularities of the field are where the curvature is, and a quad mesh can place
 /// them by s only; so phase 2 ends when the curvature of the intermediate level would have moved by more than
@@ -68,15 +46,13 @@ struct HierarchyOptions
   /// ordered removal costs fifteen times as much as one of these, and a level of so many vertices resolves ten times
   /// what the coarse level can; with an eighth of them the irregular vertices of bunny_ct increase by a third.
   Index mostOrdered = 30000;
-  DecimationOrder order = DecimationOrder::Sweeps; ///< of phase 1
-  RandomDraws draws;                               ///< when it is stochastic
   /// Vertices of the finest mesh that no phase may remove (index constraints; places where a map needs
-  /// more freedom, see TransferResult::offenders).
+  /// more freedom, see TransferResult::defectVertices).
   std::vector<Index> keepVertices;
   /// Guides of faces of the finest mesh, ascending by face (see surfaceGuides). Their regions keep their borders and
   /// corners in phase 2, which carries the directions to the coarse level.
   std::vector<FaceGuide> guides;
-  /// Phase 1 by sweeps may leave some edges shorter than s/2, where that costs more time than it saves later: for a
+  /// Phase 1 may leave some edges shorter than s/2, where that costs more time than it saves later: for a
   /// level that is thinned out again.
   bool isRough = false;
   /// The finest mesh is known to have one component, which saves looking for small ones; the result is the same.
@@ -136,7 +112,7 @@ public:
   /// vertices would have to come back; this object is of no use then. Cancelled leaves it so, too.
   bool follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
     const HierarchyOptions& options);
-  /// Whether update() can honour the options: target edge length and order are those of phase 1. All else may change.
+  /// Whether update() can honour the options: the target edge length is that of phase 1. All else may change.
   bool allows(const HierarchyOptions& options) const;
   /// The intermediate level as phase 1 left it, without vertices that were brought back. Valid until update().
   const Level& intermediateOfPhase1() const;
@@ -167,7 +143,7 @@ private:
 bool isLocalChange(const Mesh& fine, const std::vector<float>& sizesBefore, std::size_t kept);
 
 /// Both phases; vertices to keep come back after phase 1 where they are a local change. Throws InvalidInput when s is
-/// not positive and finite, draws have no candidates, or the budget is 0 for a cost that knows no curvature. Progress
+/// not positive and finite, or the budget is 0 for a cost that knows no curvature. Progress
 /// and cancel through the options.
 Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options);
 

@@ -157,7 +157,7 @@ private:
     {
       return 3 * back->second + fineSlot % 3;
     }
-    return 3 * placeIn(levelFaces_, face) + fineSlot % 3;
+    return 3 * indexIn(levelFaces_, face) + fineSlot % 3;
   }
 
   void link(Index h, Index g, std::uint8_t flag)

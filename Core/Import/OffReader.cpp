@@ -257,8 +257,8 @@ private:
     {
       double st[2];
       // The last two words; where there is no colour, those that come next.
-      const std::size_t place = hasColors_ && words.size() >= first + 5 ? words.size() - 2 : first;
-      requireAtVertex(parseWords(words, place, st), i,
+      const std::size_t column = hasColors_ && words.size() >= first + 5 ? words.size() - 2 : first;
+      requireAtVertex(parseWords(words, column, st), i,
         "has no two texture coordinates, as the file's first word promises");
       texture.insert(texture.end(), std::begin(st), std::end(st));
     }

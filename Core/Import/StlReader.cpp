@@ -26,7 +26,7 @@ namespace
 constexpr std::uint64_t kStlHeaderBytes = 84;
 constexpr std::size_t kRowBytes = 50;
 constexpr std::uint64_t kMostTriangles =
-  400000000; // their corners, and the places of a table, have 31 bits
+  400000000; // their corners, and the slots of a table, have 31 bits
 constexpr std::size_t kCornerChunk = std::size_t{ 1 } << 16;
 
 /// What the file announces; 0 where it is too short to do so.
@@ -44,7 +44,7 @@ std::uint64_t announcedTriangles(const std::string& path)
 }
 
 /// Numbers equal points in the order in which they first come. Any number of threads may put corners into the table at
-/// once; each of its places keeps the lowest corner at one point.
+/// once; each of its slots keeps the lowest corner at one point.
 class UniqueCorners
 {
 public:
@@ -120,7 +120,7 @@ private:
     return bits;
   }
 
-  /// The place of a corner's point.
+  /// The slot of a corner's point.
   std::size_t put(Index corner)
   {
     const Bits bits = bitsOf(corner);
@@ -130,14 +130,14 @@ private:
       hash = (hash ^ b) * 0x9e3779b97f4a7c15ULL;
       hash ^= hash >> 32;
     }
-    for (std::size_t place = hash & (size_ - 1);; place = (place + 1) & (size_ - 1))
+    for (std::size_t slot = hash & (size_ - 1);; slot = (slot + 1) & (size_ - 1))
     {
-      std::atomic<Index>& entry = table_[place];
+      std::atomic<Index>& entry = table_[slot];
       Index there = entry.load(std::memory_order_relaxed);
       if (there == kInvalidIndex &&
         entry.compare_exchange_strong(there, corner, std::memory_order_relaxed))
       {
-        return place;
+        return slot;
       }
       if (bitsOf(there) == bits)
       {
@@ -145,7 +145,7 @@ private:
           corner < there && !entry.compare_exchange_weak(there, corner, std::memory_order_relaxed))
         {
         }
-        return place;
+        return slot;
       }
     }
   }
@@ -202,12 +202,9 @@ bool isBinaryStl(const std::string& path)
 SurfaceFile readBinaryStl(const std::string& path, int threads)
 {
   const std::uint64_t triangles = isBinaryStl(path) ? announcedTriangles(path) : 0;
-  if (triangles == 0 || triangles > kMostTriangles)
-  {
-    throw InvalidInput(path +
-      (triangles == 0 ? ": is no binary STL file, or its length is not that of its triangles"
-                      : ": has more than 400 million triangles"));
-  }
+  refuseIf(triangles == 0 || triangles > kMostTriangles, path,
+    triangles == 0 ? ": is no binary STL file, or its length is not that of its triangles"
+                   : ": has more than 400 million triangles");
   std::vector<float> coordinates(9 * triangles);
   constexpr std::size_t kNormalBytes = 12, kCornerBytes = 36;
   const std::size_t read = readFixedRows(path, kStlHeaderBytes, triangles, kRowBytes, threads,
@@ -256,11 +253,8 @@ SurfaceFile readTextStl(const std::string& path, int threads)
       fail("has not three vertices");
     }
   }
-  if (!isStl || coordinates.size() % 9 != 0)
-  {
-    throw InvalidInput(
-      path + (isStl ? ": ends within a facet" : ": is no STL file: it has no facets"));
-  }
+  refuseIf(!isStl || coordinates.size() % 9 != 0, path,
+    isStl ? ": ends within a facet" : ": is no STL file: it has no facets");
   return joinCorners(coordinates, threads);
 }
 

@@ -83,12 +83,12 @@ double NumberArray::get(std::size_t row, std::size_t component) const
 
 void NumberArray::set(std::size_t row, std::size_t component, double value)
 {
-  const std::size_t place = components_ * row + component;
+  const std::size_t index = components_ * row + component;
   withType(type_,
     [&](auto* of)
     {
       const auto number = static_cast<std::remove_pointer_t<decltype(of)>>(value);
-      std::memcpy(bytes_.get() + place * sizeof(number), &number, sizeof(number));
+      std::memcpy(bytes_.get() + index * sizeof(number), &number, sizeof(number));
     });
 }
 

@@ -516,8 +516,8 @@ std::vector<int> IntegerMap::windings(VectorOf vectorOf) const
 
 bool IntegerMap::isValid() const
 {
-  const bool sound = std::all_of(
-    faces_.begin(), faces_.end(), [&](Index f) { return defect(f) == FixedVec2{} && isSound(f); });
+  const bool sound = std::all_of(faces_.begin(), faces_.end(),
+    [&](Index f) { return residual(f) == FixedVec2{} && isSound(f); });
   return sound && windings([&](Index h) { return inQuads(q_[h]); }) == turns_;
 }
 

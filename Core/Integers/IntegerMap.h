@@ -70,7 +70,8 @@ public:
   /// Flips to the Delaunay triangulation of the displacements, as far as triangles stay sound.
   void makeDelaunay();
 
-  FixedVec2 defect(Index f) const { return q_[3 * f] + q_[3 * f + 1] + q_[3 * f + 2]; }
+  /// What the edges of face f fail to close by; 0 where its corners are points.
+  FixedVec2 residual(Index f) const { return q_[3 * f] + q_[3 * f + 1] + q_[3 * f + 2]; }
   /// Twice the area of face f in units of kGrain^-2 quads.
   std::int64_t determinant(Index f) const { return cross(q_[3 * f], q_[3 * f + 1]); }
   /// 0 for a sound triangle, else by how much it misses that; in units of a determinant.

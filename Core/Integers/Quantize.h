@@ -17,7 +17,7 @@ struct QuantizeOptions
   double maximumRefinement = 8; ///< the integers may grow by this factor when nothing else is valid
   /// In [0, 1]: the integers come near to so many times the seamless map. 0: as near to nothing as a valid map can.
   double pull = 1;
-  /// Vertices, as EmbedResult::offenders, whose triangles the integers must leave positive as they are.
+  /// Vertices, as EmbedResult::failedAt, whose triangles the integers must leave positive as they are.
   std::vector<Index> watched;
   /// #H: an integer-grid map along the same field, or null. Its integers are the start where they are valid, and are
   /// only improved then.

@@ -41,23 +41,23 @@ std::vector<FixedVec2> stepsIn(FixedVec2 p)
   return steps;
 }
 
-/// Carries the defects of all triangles to each other, or out. False when one cannot leave its face.
+/// Carries the residuals of all triangles to each other, or out. False when one cannot leave its face.
 bool closeTriangles(IntegerMap& map, StripSearch& search)
 {
-  std::vector<FixedVec2> defects(map.mesh().alive.size());
+  std::vector<FixedVec2> residuals(map.mesh().alive.size());
   for (const Index f : map.faces())
   {
-    defects[f] = map.defect(f);
+    residuals[f] = map.residual(f);
   }
   for (const Index f : map.faces())
   {
-    while (defects[f] != FixedVec2{})
+    while (residuals[f] != FixedVec2{})
     {
       poll();
       Strip best;
-      for (const FixedVec2 e : stepsIn(defects[f]))
+      for (const FixedVec2 e : stepsIn(residuals[f]))
       {
-        const Strip strip = search.discharge(f, e, defects);
+        const Strip strip = search.discharge(f, e, residuals);
         if (strip.found() && strip.cost < best.cost)
         {
           best = strip;
@@ -70,7 +70,7 @@ bool closeTriangles(IntegerMap& map, StripSearch& search)
       apply(map, best);
       for (const Index touched : crossedFaces(map.mesh(), best).faces)
       {
-        defects[touched] = map.defect(touched);
+        residuals[touched] = map.residual(touched);
       }
     }
   }

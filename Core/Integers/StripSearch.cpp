@@ -269,7 +269,7 @@ Strip StripSearch::through(Index h, FixedVec2 e, double bound)
   return strip;
 }
 
-Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& defects)
+Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& residuals)
 {
   length_ = IntegerMap::lengthOf(e);
   ++searches_;
@@ -302,7 +302,7 @@ Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>&
   {
     const Index in = state / 4;
     const FixedVec2 carried = vectorOf(state);
-    const FixedVec2 there = Mesh::face(in) == f ? defects[f] - e : defects[Mesh::face(in)];
+    const FixedVec2 there = Mesh::face(in) == f ? residuals[f] - e : residuals[Mesh::face(in)];
     if (there.u * carried.u + there.v * carried.v < 0)
     {
       best = { cost, state, kInvalidIndex, {} };

@@ -46,9 +46,9 @@ public:
   /// also ends after a bounded number of steps, and what it has found till then counts.
   Strip through(Index h, FixedVec2 e, double bound);
 
-  /// The cheapest strip that carries the vector e of the defect of face f to a face whose defect it
-  /// lowers, or out through the boundary. defects: #F.
-  Strip discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& defects);
+  /// The cheapest strip that carries the vector e of the residual of face f to a face whose residual it
+  /// lowers, or out through the boundary. residuals: #F.
+  Strip discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& residuals);
 
   /// The faces that the last call of through() looked at, each once: as long as none of them changes, the same call
   /// finds the same.

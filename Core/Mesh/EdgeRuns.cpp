@@ -6,6 +6,7 @@
 #include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <array>
@@ -79,11 +80,8 @@ void sortBucket(EdgeRuns::Entry* bucket, std::size_t count)
 
 EdgeRuns::EdgeRuns(const std::vector<Index>& origin, Index vertexCount, int threads)
 {
-  if (origin.size() % 3 != 0)
-  {
-    throw InvalidInput("the corner list has " + std::to_string(origin.size()) +
-      " entries, which is no multiple of 3");
-  }
+  refuseIf(origin.size() % 3 != 0, "the corner list has ", origin.size(),
+    " entries, which is no multiple of 3");
   countEdges(origin, vertexCount);
   fill(origin);
   sortBuckets(threads);

@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Mesh/Surface.h"
 #include "Mesh/Topology.h"
 
@@ -117,12 +118,9 @@ double sizedArea(const Mesh& mesh)
 
 void checkSizing(const SurfaceInput& input)
 {
-  if (!input.sizing.empty() && input.sizing.size() != input.points.size())
-  {
-    throw InvalidInput("the array of sizes has " + std::to_string(input.sizing.size()) +
-      " values for " + std::to_string(input.points.size()) +
-      " points: give one value each, or none.");
-  }
+  refuseIf(!input.sizing.empty() && input.sizing.size() != input.points.size(),
+    "the array of sizes has ", input.sizing.size(), " values for ", input.points.size(),
+    " points: give one value each, or none.");
   for (std::size_t i = 0; i < input.sizing.size(); ++i)
   {
     pollNowAndThen(i);
@@ -157,10 +155,8 @@ void collectSizing(const SurfaceInput& input, PreparedSurface& surface)
 
 SizingReport limitSizeGrowth(Mesh& mesh, double edgeLength)
 {
-  if (!(edgeLength > 0) || !std::isfinite(edgeLength))
-  {
-    throw InvalidInput("the edge length that sizes are multiples of must be positive and finite.");
-  }
+  refuseIf(!(edgeLength > 0) || !std::isfinite(edgeLength),
+    "the edge length that sizes are multiples of must be positive and finite.");
   SizingReport report;
   if (mesh.sizing.empty())
   {

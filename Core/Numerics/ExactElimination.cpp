@@ -177,14 +177,14 @@ private:
   void substitute(Index other, Index r, Index variable, std::int64_t coefficient)
   {
     IntegerRow& row = rows_[other];
-    const auto place = std::lower_bound(
+    const auto found = std::lower_bound(
       row.begin(), row.end(), variable, [](const auto& term, Index id) { return term.first < id; });
-    if (place == row.end() || place->first != variable)
+    if (found == row.end() || found->first != variable)
     {
       return; // it cancelled in an earlier step
     }
-    const std::int64_t common = std::gcd(coefficient, place->second);
-    IntegerRow changed = combine(coefficient / common, row, -(place->second / common), rows_[r]);
+    const std::int64_t common = std::gcd(coefficient, found->second);
+    IntegerRow changed = combine(coefficient / common, row, -(found->second / common), rows_[r]);
     for (const auto& term : row)
     {
       --useCount_[term.first];

@@ -391,13 +391,13 @@ void NestedSolver::measure()
   }
 }
 
-std::size_t NestedSolver::placeIn(const Front& front, Index vertex) const
+std::size_t NestedSolver::indexIn(const Front& front, Index vertex) const
 {
   if (vertex < front.end)
   {
     return offset_[vertex] - offset_[front.first];
   }
-  std::size_t place = front.own;
+  std::size_t index = front.own;
   // Borders of one and of two unknowns a vertex alternate on curves only, but there they do.
   for (const Index v : front.border)
   {
@@ -405,9 +405,9 @@ std::size_t NestedSolver::placeIn(const Front& front, Index vertex) const
     {
       break;
     }
-    place += count(v);
+    index += count(v);
   }
-  return place;
+  return index;
 }
 
 double& NestedSolver::entry(Front& front, std::size_t row, std::size_t column) const
@@ -429,7 +429,7 @@ void NestedSolver::addTriangles(Front& front, const Element& element) const
     std::size_t size = 0;
     for (const Index v : triangles_[t])
     {
-      const std::size_t at = v == kInvalidIndex ? 0 : placeIn(front, v);
+      const std::size_t at = v == kInvalidIndex ? 0 : indexIn(front, v);
       for (std::size_t k = 0; v != kInvalidIndex && k < count(v); ++k)
       {
         place[size++] = at + k;

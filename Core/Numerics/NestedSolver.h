@@ -71,7 +71,7 @@ private:
   void addTriangles(Front& front, const Element& element) const;
   void addChild(Front& front, Front& child) const;
   double& entry(Front& front, std::size_t row, std::size_t column) const;
-  std::size_t placeIn(const Front& front, Index vertex) const;
+  std::size_t indexIn(const Front& front, Index vertex) const;
   std::size_t count(Index vertex) const { return offset_[vertex + 1] - offset_[vertex]; }
 
   std::vector<std::array<Index, 3>>

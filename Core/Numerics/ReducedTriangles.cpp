@@ -198,9 +198,9 @@ bool ReducedTriangles::newtonStep(double regularization, Eigen::VectorXd& step)
     analyzed_ = true;
   }
   double mean = 0;
-  for (const int place : diagonal_)
+  for (const int entry : diagonal_)
   {
-    mean += hessian_.valuePtr()[place] / static_cast<double>(unknowns());
+    mean += hessian_.valuePtr()[entry] / static_cast<double>(unknowns());
   }
   const double scale = mean > 0 ? mean : 1.0;
   for (double shift = regularization; shift < 10; shift = std::max(shift * 100, 1e-12))

@@ -315,10 +315,7 @@ UntangleResult untangle(
 {
   refuseIf(y0.size() != problem.basis.cols(),
     "untangling: the initial guess has not the size of the unknowns");
-  if (!y0.allFinite())
-  {
-    throw InvalidInput("untangling: the initial guess has an entry that is not finite");
-  }
+  refuseIf(!y0.allFinite(), "untangling: the initial guess has an entry that is not finite");
   refuseIf(options.anisotropyLimit != 0 &&
       !(options.anisotropyLimit >= 1 && std::isfinite(options.anisotropyLimit)),
     "untangling: the anisotropy limit must be 0 or a number from 1 on");

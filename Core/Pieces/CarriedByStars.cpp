@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pieces/CarriedPlaces.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 #include "Pieces/PlaneStar.h"
 
 #include <algorithm>
@@ -288,14 +288,11 @@ private:
 void checkCarried(const Mesh& fine, const Level& level, const DecimationLog& log,
   const std::vector<FacePlace>& places)
 {
-  if (fine.faceCount() != log.fineFaces ||
-    level.mesh.vertexCount() + log.collapses != fine.vertexCount())
-  {
-    throw InvalidInput("A level of " + std::to_string(level.mesh.vertexCount()) +
-      " vertices and a log of " + std::to_string(log.collapses) +
-      " removals are not those of a mesh of " + std::to_string(fine.vertexCount()) +
-      " vertices and " + std::to_string(fine.faceCount()) + " faces.");
-  }
+  refuseIf(fine.faceCount() != log.fineFaces ||
+      level.mesh.vertexCount() + log.collapses != fine.vertexCount(),
+    "A level of ", level.mesh.vertexCount(), " vertices and a log of ", log.collapses,
+    " removals are not those of a mesh of ", fine.vertexCount(), " vertices and ", fine.faceCount(),
+    " faces.");
   requirePlaces(level, places);
 }
 

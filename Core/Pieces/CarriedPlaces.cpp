@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pieces/CarriedPlaces.h"
 
-#include "Base/Error.h"
 #include "Base/LargeArray.h"
+#include "Base/Refuse.h"
 #include "Pieces/PlaneStar.h"
 
 #include <algorithm>
@@ -211,13 +211,9 @@ void check(const Level& level, const DecimationLog& log, std::size_t rounds,
     level.fineFace.size() == level.mesh.faceCount() &&
     std::all_of(
       level.fineFace.begin(), level.fineFace.end(), [&](Index f) { return f < log.fineFaces; });
-  if (!isOfLog)
-  {
-    throw InvalidInput("A level of " + std::to_string(level.mesh.faceCount()) + " faces after " +
-      std::to_string(rounds) + " rounds is not one of the decimation log, of " +
-      std::to_string(log.rounds.size()) + " rounds for " + std::to_string(log.fineFaces) +
-      " faces.");
-  }
+  refuseIf(!isOfLog, "A level of ", level.mesh.faceCount(), " faces after ", rounds,
+    " rounds is not one of the decimation log, of ", log.rounds.size(), " rounds for ",
+    log.fineFaces, " faces.");
   requirePlaces(level, places);
 }
 
@@ -227,11 +223,8 @@ void requirePlaces(const Level& level, const std::vector<FacePlace>& places)
 {
   for (const FacePlace& place : places)
   {
-    if (place.face >= level.mesh.faceCount())
-    {
-      throw InvalidInput("A place is on face " + std::to_string(place.face) +
-        ", but the level has " + std::to_string(level.mesh.faceCount()) + " faces.");
-    }
+    refuseIf(place.face >= level.mesh.faceCount(), "A place is on face ", place.face,
+      ", but the level has ", level.mesh.faceCount(), " faces.");
   }
 }
 

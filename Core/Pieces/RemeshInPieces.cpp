@@ -7,6 +7,7 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Pieces/PieceCut.h"
 #include "Pieces/PlaceOnSource.h"
 #include "Pieces/SurfacePiece.h"
@@ -118,10 +119,8 @@ public:
     PiecesResult& result)
     : source_(source), options_(options), result_(result)
   {
-    if (pieces.trianglesOfPiece < 1000)
-    {
-      throw InvalidInput("pieces of a surface must have at least 1000 triangles.");
-    }
+    refuseIf(
+      pieces.trianglesOfPiece < 1000, "pieces of a surface must have at least 1000 triangles.");
     StageLaps laps;
     const double quads =
       static_cast<double>(std::min(options.quads.value_or(0), options.maximumNumberOfQuads));
@@ -505,14 +504,11 @@ PiecesResult remeshInPieces(
   const TriangleSource& source, const RemeshOptions& options, const PiecesOptions& pieces)
 {
   checkOptions(options);
-  if (source.triangleCount() == 0 || source.triangleCount() >= kInvalidIndex ||
-    source.pointCount() >= kInvalidIndex)
-  {
-    throw InvalidInput("the surface has " + std::to_string(source.pointCount()) + " points and " +
-      std::to_string(source.triangleCount()) +
-      " triangles; there must be triangles, and fewer than " + std::to_string(kInvalidIndex) +
-      " of both: cut the surface into parts.");
-  }
+  refuseIf(source.triangleCount() == 0 || source.triangleCount() >= kInvalidIndex ||
+      source.pointCount() >= kInvalidIndex,
+    "the surface has ", source.pointCount(), " points and ", source.triangleCount(),
+    " triangles; there must be triangles, and fewer than ", kInvalidIndex,
+    " of both: cut the surface into parts.");
   PiecesResult result;
   PollScope poll(options.progress);
   RemeshOptions asked = options;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Pieces/RemeshInPieces.h"
 #include "Pieces/SurfacePiece.h"
 #include "Pieces/ThinnedSurface.h"
@@ -88,13 +89,12 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
 /// What needs the whole surface, see remeshThinned.
 void requireNothingPlaced(const SurfaceInput& input)
 {
-  if (!input.guideDirections.empty() || !input.targetValences.empty() || !input.drawn.empty() ||
-    !input.curves.empty() || !input.held.empty() || !input.seams.empty() ||
-    !input.straight.empty() || input.regularElsewhere || input.regularOnFeatures)
-  {
-    throw InvalidInput("guides, valences and curves are those of the whole surface: do not have it "
-                       "thinned out.");
-  }
+  refuseIf(!input.guideDirections.empty() || !input.targetValences.empty() ||
+      !input.drawn.empty() || !input.curves.empty() || !input.held.empty() ||
+      !input.seams.empty() || !input.straight.empty() || input.regularElsewhere ||
+      input.regularOnFeatures,
+    "guides, valences and curves are those of the whole surface: do not have it "
+    "thinned out.");
 }
 
 } // namespace

@@ -3,8 +3,8 @@
 #include "Pieces/SurfacePiece.h"
 
 #include "Base/Clock.h"
-#include "Base/Error.h"
 #include "Base/Lists.h"
+#include "Base/Refuse.h"
 #include "Features/Features.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Pieces/CarriedPlaces.h"
@@ -55,10 +55,8 @@ public:
   Implementation(SurfaceInput input, const PieceOptions& options)
     : options_(options), handles_(options.closedLoop, options.quadEdge)
   {
-    if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
-    {
-      throw InvalidInput("the edge length of the pieces of a surface must be above 0 and finite.");
-    }
+    refuseIf(!(options.edgeLength > 0) || !std::isfinite(options.edgeLength),
+      "the edge length of the pieces of a surface must be above 0 and finite.");
     PrepareOptions prepare;
     prepare.featureAngle = options.featureAngle;
     prepare.threads = options.threads;

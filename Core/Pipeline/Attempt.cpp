@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Attempt.h"
 
+#include "Base/Lists.h"
 #include "Base/WorkCount.h"
 #include "GridMap/PreviousMap.h"
 #include "Pipeline/CoarsestMap.h"
@@ -119,7 +120,7 @@ void recordCoarse(
   made.stages.add("embed", map.secondsEmbed, coarse, coarse);
   tell({ levels.notice, refinementNotice(map.refinement) }, made.notices);
   made.curves = std::move(map.curves);
-  made.curveOffenders = onFinest(map.curveOffenders, levels.coarse);
+  made.curvesFailedAt = onFinest(map.curvesFailedAt, levels.coarse);
   made.coarse = levels.coarse;
   made.coarseUv = std::move(map.uv);
   if (!map.field.turns.empty()) // there is none where the level is too large for one
@@ -133,13 +134,13 @@ void recordCoarse(
   // Where features are held, more freedom is what helps, see Session.
   const bool isHeld = surface->regularOnFeatures && !map.status.ok();
   made.hopeless = isHeld || map.status.code == StatusCode::TooLarge ||
-    (map.status.code == StatusCode::Infeasible && map.offenders.empty());
+    (map.status.code == StatusCode::Infeasible && map.failedAt.empty());
   if (!map.status.ok())
   {
     made.status = { map.status.code, "no valid map of the coarse mesh: " + map.status.message };
     made.collapsed = map.collapsedFaces > 0;
-    made.coarseTroubles = positionsOf(levels.coarse.mesh, map.offenders);
-    made.coarseOffenders = onFinest(map.offenders, levels.coarse);
+    made.failedPlaces = positionsOf(levels.coarse.mesh, map.failedAt);
+    made.failedAt = onFinest(map.failedAt, levels.coarse);
   }
 }
 
@@ -179,14 +180,13 @@ void mendFewPlaces(
       run.options.threads, subProgress(run.options.progress, 0.8, 0.9, "Mapping back: "));
   made.transfer.mendedPatches += mended.patches;
   made.transfer.notPositive = mended.notPositive;
-  std::vector<Index>& offenders = made.transfer.offenders;
-  offenders.clear();
+  std::vector<Index>& vertices = made.transfer.defectVertices;
+  vertices.clear();
   for (const Index f : mended.defects)
   {
-    offenders.insert(offenders.end(), &mesh.origin[3 * f], &mesh.origin[3 * f] + 3);
+    vertices.insert(vertices.end(), &mesh.origin[3 * f], &mesh.origin[3 * f] + 3);
   }
-  std::sort(offenders.begin(), offenders.end());
-  offenders.erase(std::unique(offenders.begin(), offenders.end()), offenders.end());
+  sortUnique(vertices);
   made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
   made.stages.add("replay", secondsNow() - start, made.coarse.mesh.faceCount(), mesh.faceCount());
 }
@@ -366,7 +366,7 @@ void carryToSurface(
       countTryLed(Try::WithoutGuides, made.certificate.valid() ? 1 : 0);
     }
   }
-  if (isScaleAware && !made.transfer.offenders.empty())
+  if (isScaleAware && !made.transfer.defectVertices.empty())
   {
     mendFewPlaces(run, mesh, levels, made);
   }
@@ -393,7 +393,7 @@ void keepMap(const RunContext& run, const Mesh& surface, MapAttempt& map)
   run.store->put(map.key, std::move(kept), bytes);
 }
 
-std::optional<GridTroubles> gridTroubles(const RunContext& run, const MapAttempt& map)
+std::optional<GridDefects> gridDefects(const RunContext& run, const MapAttempt& map)
 {
   if (map.coarseUv.empty() || !map.coarseCertificate.valid())
   {
@@ -409,14 +409,14 @@ std::optional<GridTroubles> gridTroubles(const RunContext& run, const MapAttempt
     return std::nullopt;
   }
   const QuadTopology topology = analyzeQuads(coarse.mesh.quads, coarse.mesh.points.size());
-  GridTroubles troubles;
-  troubles.defects = coarse.droppedFaces + topology.nonManifoldEdges +
-    topology.nonManifoldVertices + topology.degenerateQuads;
-  for (const Index p : topology.offendingPoints)
+  GridDefects found;
+  found.count = coarse.droppedFaces + topology.nonManifoldEdges + topology.nonManifoldVertices +
+    topology.degenerateQuads;
+  for (const Index p : topology.defectPoints)
   {
-    troubles.places.push_back(coarse.mesh.points[p]);
+    found.places.push_back(coarse.mesh.points[p]);
   }
-  return troubles;
+  return found;
 }
 
 std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices)

@@ -76,11 +76,11 @@ struct MapAttempt
   bool hopeless = false;                   ///< no other triangulation can mend it
   bool collapsed = false;                  ///< arcs of features leave some coarse triangles no area
   std::vector<std::uint8_t> coarseInteger; ///< #V of coarse.mesh, see integerVertices
-  std::vector<Index> coarseOffenders;      ///< vertices of the surface, where the status is not ok
-  std::vector<Vector3> coarseTroubles;     ///< their positions
+  std::vector<Index> failedAt;             ///< vertices of the surface, where the status is not ok
+  std::vector<Vector3> failedPlaces;       ///< their positions
   std::size_t work = 0;                    ///< see Base/WorkCount.h; of the map of the coarse level
   bool isInterrupted = false;              ///< as the work was spent
-  std::vector<Index> curveOffenders; ///< GridMapResult::curveOffenders, as vertices of the surface
+  std::vector<Index> curvesFailedAt; ///< GridMapResult::curvesFailedAt, as vertices of the surface
 
   bool isCarried = false;                  ///< to the surface
   PackedMap packed;                        ///< in place of uv
@@ -148,7 +148,7 @@ std::shared_ptr<const QuadAttempt> makePreview(
 /// Where quads of the coarse map touch themselves: round a small handle or a thin part, where a loop is one or two
 /// quads long, that shows on the coarse map already, and only smaller quads can help. None where this is not the cause
 /// of a failure.
-std::optional<GridTroubles> gridTroubles(const RunContext& run, const MapAttempt& map);
+std::optional<GridDefects> gridDefects(const RunContext& run, const MapAttempt& map);
 
 /// Positions of vertices.
 std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices);

@@ -18,7 +18,7 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
     roundIsOver_ = false;
   }
   steps_.emplace_back(plan.step);
-  round_.push_back({ plan.step, map->coarseOffenders.size() });
+  round_.push_back({ plan.step, map->failedAt.size() });
   workOfLast_ = map->work + bound_.ofAttempt;
   work_ += workOfLast_;
   take(*map);
@@ -113,9 +113,9 @@ std::size_t History::trailing(const std::string& step) const
   return static_cast<std::size_t>(other - round_.rbegin());
 }
 
-std::size_t History::offendersBefore() const
+std::size_t History::failedBefore() const
 {
-  return round_.size() < 2 ? 0 : round_[round_.size() - 2].offenders;
+  return round_.size() < 2 ? 0 : round_[round_.size() - 2].failed;
 }
 
 TryCounts History::tries() const

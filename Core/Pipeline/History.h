@@ -41,8 +41,8 @@ public:
   /// How many attempts of the round were made by this step; at its end, one after the other.
   std::size_t inRound(const std::string& step) const;
   std::size_t trailing(const std::string& step) const;
-  /// Offenders of the coarse map of the attempt before the last one of the round; 0 where there is none.
-  std::size_t offendersBefore() const;
+  /// At how many vertices the coarse map failed in the attempt before the last one of the round; 0 where there is none.
+  std::size_t failedBefore() const;
 
   /// The attempt that has quads, of several the one with the fewest that are inverted: a later one counts only where
   /// it has at most half as many, as what it gave up has a price. Without any, that of the last round.
@@ -53,7 +53,7 @@ public:
   std::size_t attempts() const { return attemptsBefore_ + steps_.size(); }
   const WorkBound& bound() const { return bound_; }
   /// Whether no attempt may begin any more. Where there are quads, or a map that they can be made of, half of
-  /// what the last one took has to be left, as features or offenders that went often make another one shorter.
+  /// what the last one took has to be left, as what was given up or kept often makes another one shorter.
   bool isSpent() const;
   /// From now on what was reserved for the last resort may be spent.
   void beginLastResort();
@@ -83,7 +83,7 @@ private:
   struct Summary
   {
     std::string step;
-    std::size_t offenders = 0; ///< of the coarse map
+    std::size_t failed = 0; ///< vertices that the coarse map failed at
   };
 
   Attempt last_, best_; ///< of the round

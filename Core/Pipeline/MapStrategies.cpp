@@ -14,12 +14,12 @@ namespace quadrille
 namespace
 {
 
-/// From this number of offenders on, an attempt must have halved that of the one before to deserve another.
-constexpr std::size_t kManyOffenders = 100;
+/// Where a map failed at so many vertices, it must have halved the number of the one before to deserve another.
+constexpr std::size_t kManyFailed = 100;
 /// A failure at no place in particular is worth another try with more vertices only where it took less than this part
 /// of the bound of work: integers that are searched for long and not found are a matter of features.
 constexpr double kCheapFailure = 0.25;
-/// Rings of intermediate vertices that are kept around an offender.
+/// Rings of intermediate vertices that are kept round a vertex that the map failed at.
 constexpr int kFreedomRings = 2;
 
 void keepAlso(const std::vector<Index>& vertices, Plan& plan)
@@ -69,42 +69,42 @@ std::vector<Index> ringsRound(
 }
 
 /// Whether features leave coarse triangles no area, and so many others are inverted that no few vertices will mend it.
-bool isMatterOfFeatures(const Trouble& trouble)
+bool isMatterOfFeatures(const AttemptFailure& failure)
 {
-  const std::vector<Vector3>& places = trouble.attempt.map->coarseTroubles;
-  return leavesNoArea(*trouble.attempt.map) &&
-    (!featuresNear(trouble, dropsAt(trouble, places)).empty() ||
-      (trouble.attempt.plan.borderDrops > 0 &&
-        !yieldingFeaturesNear(trouble.surface->mesh, places, trouble.run.edgeLength).empty()));
+  const std::vector<Vector3>& places = failure.attempt.map->failedPlaces;
+  return leavesNoArea(*failure.attempt.map) &&
+    (!featuresNear(failure, dropsAt(failure, places)).empty() ||
+      (failure.attempt.plan.borderDrops > 0 &&
+        !yieldingFeaturesNear(failure.surface->mesh, places, failure.run.edgeLength).empty()));
 }
 
 } // namespace
 
 bool leavesNoArea(const MapAttempt& map)
 {
-  return map.collapsed && map.coarseOffenders.size() >= kManyOffenders;
+  return map.collapsed && map.failedAt.size() >= kManyFailed;
 }
 
-std::optional<Plan> moreFreedom(const Trouble& trouble)
+std::optional<Plan> moreFreedom(const AttemptFailure& failure)
 {
-  const History& history = trouble.history;
+  const History& history = failure.history;
   const Attempt& last = history.last();
-  const std::size_t offenders = last.map->coarseOffenders.size();
+  const std::size_t failed = last.map->failedAt.size();
   const std::size_t times = history.trailing("more freedom");
-  if (last.map->status.ok() || last.map->hopeless || times == trouble.bound ||
-    (times > 0 && offenders >= kManyOffenders && 2 * offenders > history.offendersBefore()))
+  if (last.map->status.ok() || last.map->hopeless || times == failure.bound ||
+    (times > 0 && failed >= kManyFailed && 2 * failed > history.failedBefore()))
   {
     return std::nullopt;
   }
-  if (isMatterOfFeatures(trouble) ||
-    (offenders == 0 &&
+  if (isMatterOfFeatures(failure) ||
+    (failed == 0 &&
       static_cast<double>(last.map->work) >
         kCheapFailure * static_cast<double>(history.bound().work)))
   {
     return std::nullopt;
   }
-  RunContext& run = trouble.run;
-  const Hierarchy& levels = run.levels.make(trouble.surface, levelOptions(run, last.plan));
+  RunContext& run = failure.run;
+  const Hierarchy& levels = run.levels.make(failure.surface, levelOptions(run, last.plan));
   const Index coarse = levels.coarse.mesh.vertexCount();
   Plan plan = last.plan;
   if (coarse == levels.intermediate.mesh.vertexCount())
@@ -116,12 +116,11 @@ std::optional<Plan> moreFreedom(const Trouble& trouble)
   }
   const std::size_t before = plan.levels.keptVertices.size();
   keepAlso(
-    ringsRound(levels.intermediate, last.map->coarseOffenders, trouble.surface->mesh.vertexCount()),
-    plan);
+    ringsRound(levels.intermediate, last.map->failedAt, failure.surface->mesh.vertexCount()), plan);
   const std::size_t added = plan.levels.keptVertices.size() - before;
   plan.levels.coarseVertices =
     static_cast<Index>(std::max<std::size_t>(coarse + added, std::size_t{ coarse } * 5 / 4));
-  if (offenders < kManyOffenders)
+  if (failed < kManyFailed)
   {
     // More have a cause that another round may take away, and the vertices would stand in the way of its map.
     plan.nextLevels = plan.levels;
@@ -129,55 +128,55 @@ std::optional<Plan> moreFreedom(const Trouble& trouble)
   return plan;
 }
 
-std::optional<Plan> keptOffenders(const Trouble& trouble)
+std::optional<Plan> keptDefects(const AttemptFailure& failure)
 {
-  const History& history = trouble.history;
-  const std::size_t times = history.inRound("kept offenders");
-  if (!history.lastIsBest() || times == trouble.bound)
+  const History& history = failure.history;
+  const std::size_t times = history.inRound("kept defects");
+  if (!history.lastIsBest() || times == failure.bound)
   {
     return std::nullopt;
   }
   const MapAttempt& map = *history.last().map;
-  const std::vector<Index>& offenders = map.transfer.offenders;
+  const std::vector<Index>& atDefects = map.transfer.defectVertices;
   const Index coarse = map.coarse.mesh.vertexCount();
-  // With offenders everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
-  if (hasPromised(map.certificate, trouble.run.options.method) || offenders.empty() ||
-    offenders.size() > coarse / 2)
+  // With defects everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
+  if (hasPromised(map.certificate, failure.run.options.method) || atDefects.empty() ||
+    atDefects.size() > coarse / 2)
   {
     return std::nullopt;
   }
   // The last time is left out where features can be given up: what keeping vertices did not mend once is theirs.
-  const bool isLast = times + 1 == trouble.bound;
-  const std::vector<Vector3> places = positionsOf(trouble.surface->mesh, offenders);
-  if (isLast && !featuresNear(trouble, dropsAt(trouble, places)).empty())
+  const bool isLast = times + 1 == failure.bound;
+  const std::vector<Vector3> places = positionsOf(failure.surface->mesh, atDefects);
+  if (isLast && !featuresNear(failure, dropsAt(failure, places)).empty())
   {
     return std::nullopt;
   }
   Plan plan = history.last().plan;
-  keepAlso(offenders, plan);
+  keepAlso(atDefects, plan);
   if (plan.levels.coarseVertices == 0)
   {
     plan.levels.coarseVertices = coarse; // not fewer elsewhere because of these
   }
-  plan.levels.coarseVertices += static_cast<Index>(offenders.size());
+  plan.levels.coarseVertices += static_cast<Index>(atDefects.size());
   return plan;
 }
 
-std::optional<Plan> roomForCurves(const Trouble& trouble)
+std::optional<Plan> roomForCurves(const AttemptFailure& failure)
 {
-  const History& history = trouble.history;
+  const History& history = failure.history;
   const MapAttempt& map = *history.last().map;
-  if (!history.lastIsBest() || map.curveOffenders.empty() ||
-    history.inRound("room for curves") == trouble.bound)
+  if (!history.lastIsBest() || map.curvesFailedAt.empty() ||
+    history.inRound("room for curves") == failure.bound)
   {
     return std::nullopt;
   }
-  RunContext& run = trouble.run;
+  RunContext& run = failure.run;
   Plan plan = history.last().plan;
-  const Hierarchy& levels = run.levels.make(trouble.surface, levelOptions(run, plan));
+  const Hierarchy& levels = run.levels.make(failure.surface, levelOptions(run, plan));
   const std::size_t before = plan.levels.keptVertices.size();
   keepAlso(
-    ringsRound(levels.intermediate, map.curveOffenders, trouble.surface->mesh.vertexCount()), plan);
+    ringsRound(levels.intermediate, map.curvesFailedAt, failure.surface->mesh.vertexCount()), plan);
   plan.levels.coarseVertices =
     levels.coarse.mesh.vertexCount() + static_cast<Index>(plan.levels.keptVertices.size() - before);
   return plan;

@@ -19,9 +19,9 @@ namespace quadrille
 
 /// Where quads of the coarse map touch themselves though it is valid: round handles and thin parts that only one or two
 /// quads fit round.
-struct GridTroubles
+struct GridDefects
 {
-  std::size_t defects = 0;
+  std::size_t count = 0;
   std::vector<Vector3> places;
 };
 
@@ -33,10 +33,10 @@ struct FinerGrid
   /// The sizes and the area over them before the first time; null: those of the surface.
   std::shared_ptr<const std::vector<float>> sizesBefore;
   double areaBefore = 0;
-  GridTroubles firstTroubles; ///< that led to the first time
-  int doublings = 0;          ///< how often the number of quads was doubled
-  std::size_t defects = 0;    ///< of the quads of the coarse map before the last change
-  std::string notice;         ///< of the last change
+  GridDefects firstDefects; ///< that led to the first time
+  int doublings = 0;        ///< how often the number of quads was doubled
+  std::size_t defects = 0;  ///< of the quads of the coarse map before the last change
+  std::string notice;       ///< of the last change
 };
 
 /// What levels are made for.

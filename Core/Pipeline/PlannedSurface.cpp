@@ -4,6 +4,7 @@
 
 #include "Features/FeatureFilter.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/FlatSources.h"
 #include "Mesh/Sizing.h"
 
 #include <utility>
@@ -37,7 +38,10 @@ std::size_t bytesOf(const PreparedSurface& surface, const PreparedSurface* shari
   return bytesOf(surface.mesh, sharing != nullptr ? &sharing->mesh : nullptr) +
     own(&PreparedSurface::sourcePolygon) + own(&PreparedSurface::sourcePoints) +
     own(&PreparedSurface::refinedEntry) + own(&PreparedSurface::cornerWeights) +
-    own(&PreparedSurface::flipped);
+    own(&PreparedSurface::flipped) +
+    (surface.beforeFlips && (sharing == nullptr || surface.beforeFlips != sharing->beforeFlips)
+        ? surface.beforeFlips->bytes()
+        : 0);
 }
 
 double areaOverSizes(const PreparedSurface& surface)

@@ -133,7 +133,7 @@ Status failureOf(const Status& extraction, MapMethod method, const Certificate& 
 
 void countInverted(const RunContext& run, const MapAttempt& map, QuadAttempt& made)
 {
-  const std::vector<Vector3> folds = positionsOf(run.surface->mesh, map.transfer.offenders);
+  const std::vector<Vector3> folds = positionsOf(run.surface->mesh, map.transfer.defectVertices);
   const std::vector<Index> inverted = invertedQuads(made.quads.points, made.quads.quads);
   made.invertedQuads = inverted.size();
   made.invertedAtFolds = std::any_of(inverted.begin(), inverted.end(),

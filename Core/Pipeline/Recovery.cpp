@@ -16,14 +16,14 @@ struct Strategy
 {
   Try which;
   std::size_t bound; ///< how often, see the function
-  std::optional<Plan> (*next)(const Trouble& trouble);
+  std::optional<Plan> (*next)(const AttemptFailure& failure);
 };
 
 /// The strategies in the order in which they are asked.
 constexpr std::array<Strategy, 3> kForMaps{ {
   { Try::MoreFreedom, 2, moreFreedom },
   { Try::RoomForCurves, 1, roomForCurves },
-  { Try::KeptOffenders, 2, keptOffenders },
+  { Try::KeptDefects, 2, keptDefects },
 } };
 constexpr std::array<Strategy, 4> kForRounds{ {
   { Try::SmallerQuadsNear, 4, smallerQuadsNear },
@@ -63,15 +63,15 @@ std::string whyNotGood(const Attempt& attempt)
 }
 
 template <typename Strategies>
-std::optional<Plan> firstOffer(const Strategies& strategies, Trouble& trouble)
+std::optional<Plan> firstOffer(const Strategies& strategies, AttemptFailure& failure)
 {
   for (const Strategy& strategy : strategies)
   {
-    trouble.bound = strategy.bound;
-    if (std::optional<Plan> plan = strategy.next(trouble))
+    failure.bound = strategy.bound;
+    if (std::optional<Plan> plan = strategy.next(failure))
     {
       setStep(*plan, strategy.which);
-      plan->why = whyNotGood(trouble.attempt);
+      plan->why = whyNotGood(failure.attempt);
       return plan;
     }
   }
@@ -93,9 +93,9 @@ std::optional<Plan> nextMapPlan(RunContext& run, const History& history)
     return std::nullopt;
   }
   const Attempt& attempt = history.last();
-  Trouble trouble{ run, history, attempt, withPlan(run.surface, attempt.plan, run.options.threads),
-    {}, true, {}, 0 };
-  return firstOffer(kForMaps, trouble);
+  AttemptFailure failure{ run, history, attempt,
+    withPlan(run.surface, attempt.plan, run.options.threads), {}, true, {}, 0 };
+  return firstOffer(kForMaps, failure);
 }
 
 std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLast)
@@ -108,20 +108,20 @@ std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLas
   {
     return std::nullopt;
   }
-  Trouble trouble{ run, history, attempt, withPlan(run.surface, attempt.plan, run.options.threads),
-    {}, !hasQuads, {}, 0 };
-  trouble.places = mapped ? positionsOf(run.surface->mesh, attempt.map->transfer.offenders)
-                          : attempt.map->coarseTroubles;
-  if (trouble.failed)
+  AttemptFailure failure{ run, history, attempt,
+    withPlan(run.surface, attempt.plan, run.options.threads), {}, !hasQuads, {}, 0 };
+  failure.places = mapped ? positionsOf(run.surface->mesh, attempt.map->transfer.defectVertices)
+                          : attempt.map->failedPlaces;
+  if (failure.withoutQuads)
   {
-    trouble.grid = gridTroubles(run, *attempt.map);
+    failure.grid = gridDefects(run, *attempt.map);
   }
   std::optional<Plan> plan;
   if (!history.isSpent())
   {
-    plan = firstOffer(kForRounds, trouble);
+    plan = firstOffer(kForRounds, failure);
   }
-  return plan || !isLast || history.hasResult() ? plan : firstOffer(kLastResort, trouble);
+  return plan || !isLast || history.hasResult() ? plan : firstOffer(kLastResort, failure);
 }
 
 bool isLastResort(const Plan& plan)

@@ -73,7 +73,7 @@ void forget(std::initializer_list<Try> steps, Plan& plan)
 Plan newRound(Plan plan)
 {
   plan.levels = plan.nextLevels;
-  forget({ Try::KeptOffenders, Try::RoomForCurves }, plan);
+  forget({ Try::KeptDefects, Try::RoomForCurves }, plan);
   return plan;
 }
 
@@ -95,20 +95,19 @@ std::string nearText(const std::vector<Vector3>& places)
 }
 
 /// Where an earlier round has quads, of which some are inverted, a finer grid would cost more than it gives.
-bool asksForFinerGrid(const Trouble& trouble)
+bool asksForFinerGrid(const AttemptFailure& failure)
 {
-  const RemeshOptions& options = trouble.run.options;
-  return trouble.failed && !trouble.history.hasResult() && !options.coarsestIntegers &&
+  const RemeshOptions& options = failure.run.options;
+  return failure.withoutQuads && !failure.history.hasResult() && !options.coarsestIntegers &&
     options.smallDetails != SmallDetails::Keep;
 }
 
 /// Whether quads that are smaller everywhere had no fewer defects. Along a tube that still too few quads go round there
 /// are as many as the tube is long, and so sqrt 2 times as many as before: another doubling may help there.
-bool isNoMatterOfSize(const Plan& plan, const std::optional<GridTroubles>& grid)
+bool isNoMatterOfSize(const Plan& plan, const std::optional<GridDefects>& grid)
 {
-  return plan.finer.doublings > 0 && grid && grid->defects >= plan.finer.defects &&
-    static_cast<double>(grid->defects) <=
-    kGrowthAlongTubes * static_cast<double>(plan.finer.defects);
+  return plan.finer.doublings > 0 && grid && grid->count >= plan.finer.defects &&
+    static_cast<double>(grid->count) <= kGrowthAlongTubes * static_cast<double>(plan.finer.defects);
 }
 
 /// Loops of handles and holes that pass near one of the places.
@@ -131,7 +130,7 @@ std::vector<HandleLoop> loopsNear(const RunContext& run, const std::vector<Vecto
 Plan fromTheBeginning(const RunContext& run, const Plan& before)
 {
   Plan plan = withoutShrinks(before);
-  forget({ Try::MoreFreedom, Try::KeptOffenders, Try::RoomForCurves, Try::MoreQuads }, plan);
+  forget({ Try::MoreFreedom, Try::KeptDefects, Try::RoomForCurves, Try::MoreQuads }, plan);
   plan.finer = {};
   plan.levels = {};
   plan.levels.keptVertices = keptVertices(*run.surface);
@@ -269,17 +268,17 @@ bool isTooLarge(const Attempt& attempt)
     (attempt.quads && attempt.quads->status.code == StatusCode::TooLarge);
 }
 
-std::vector<FeatureDrop> dropsAt(const Trouble& trouble, const std::vector<Vector3>& places)
+std::vector<FeatureDrop> dropsAt(const AttemptFailure& failure, const std::vector<Vector3>& places)
 {
-  const Plan& plan = trouble.attempt.plan;
+  const Plan& plan = failure.attempt.plan;
   std::vector<FeatureDrop> drops;
-  if (static_cast<std::size_t>(plan.featureDrops) >= kMostFeatureDrops && !trouble.failed)
+  if (static_cast<std::size_t>(plan.featureDrops) >= kMostFeatureDrops && !failure.failed)
   {
     return drops;
   }
   for (const Vector3& place : places)
   {
-    double radius = kFirstFeatureDrop * trouble.run.edgeLength;
+    double radius = kFirstFeatureDrop * failure.run.edgeLength;
     for (const FeatureDrop& before : plan.dropped)
     {
       const double twice = 2 * before.radius;
@@ -290,7 +289,7 @@ std::vector<FeatureDrop> dropsAt(const Trouble& trouble, const std::vector<Vecto
   return drops;
 }
 
-std::vector<Index> featuresNear(const Trouble& trouble, const std::vector<FeatureDrop>& drops)
+std::vector<Index> featuresNear(const AttemptFailure& failure, const std::vector<FeatureDrop>& drops)
 {
   std::vector<Index> features;
   std::map<double, std::vector<Vector3>> byRadius;
@@ -300,36 +299,36 @@ std::vector<Index> featuresNear(const Trouble& trouble, const std::vector<Featur
   }
   for (const auto& [radius, places] : byRadius)
   {
-    append(features, detectedFeaturesNear(trouble.surface->mesh, places, radius));
+    append(features, detectedFeaturesNear(failure.surface->mesh, places, radius));
   }
   sortUnique(features);
   return features;
 }
 
-std::optional<Plan> smallerQuadsNear(const Trouble& trouble)
+std::optional<Plan> smallerQuadsNear(const AttemptFailure& failure)
 {
-  const RunContext& run = trouble.run;
-  Plan plan = newRound(trouble.attempt.plan);
+  const RunContext& run = failure.run;
+  Plan plan = newRound(failure.attempt.plan);
   FinerGrid& finer = plan.finer;
   // A map with other sizes has other places where quads only just fit, so their number need not fall each time.
-  if (!asksForFinerGrid(trouble) || !finer.mayShrink ||
-    static_cast<std::size_t>(finer.shrinks) == trouble.bound || !trouble.grid ||
-    trouble.grid->places.empty())
+  if (!asksForFinerGrid(failure) || !finer.mayShrink ||
+    static_cast<std::size_t>(finer.shrinks) == failure.bound || !failure.grid ||
+    failure.grid->places.empty())
   {
     return std::nullopt;
   }
-  std::vector<Vector3> places = trouble.grid->places;
+  std::vector<Vector3> places = failure.grid->places;
   if (finer.shrinks++ == 0)
   {
     finer.sizesBefore = plan.sizes;
-    finer.areaBefore = areaOverSizes(*trouble.surface);
-    finer.firstTroubles = *trouble.grid;
+    finer.areaBefore = areaOverSizes(*failure.surface);
+    finer.firstDefects = *failure.grid;
     const std::vector<Vector3>& hopeless = run.shortLoops.hopelessPlaces;
     places.insert(places.end(), hopeless.begin(), hopeless.end());
   }
-  finer.defects = trouble.grid->defects;
-  const std::vector<HandleLoop> loops = loopsNear(run, trouble.grid->places);
-  Mesh mesh = trouble.surface->mesh;
+  finer.defects = failure.grid->count;
+  const std::vector<HandleLoop> loops = loopsNear(run, failure.grid->places);
+  Mesh mesh = failure.surface->mesh;
   scaleSizesNear(mesh, places, kShrinkRadius * run.edgeLength, kShrink);
   const std::vector<float> fitting =
     sizesOfLoops(loops, run.edgeLength, kLeastSizeOfLoop, mesh.vertexCount());
@@ -339,7 +338,7 @@ std::optional<Plan> smallerQuadsNear(const Trouble& trouble)
   }
   limitSizeGrowth(mesh, run.edgeLength);
   plan.sizes = std::make_shared<const std::vector<float>>(mesh.sizing.take());
-  const double area = areaOverSizes(*trouble.surface, *plan.sizes);
+  const double area = areaOverSizes(*failure.surface, *plan.sizes);
   if (area > kMostGrowth * finer.areaBefore)
   {
     return std::nullopt;
@@ -347,30 +346,30 @@ std::optional<Plan> smallerQuadsNear(const Trouble& trouble)
   plan.quads = quadsFor(run, plan, area);
   std::ostringstream text;
   text << "quads of the wanted size do not fit round a handle or a thin part"
-       << nearText(finer.firstTroubles.places) << ": they are made smaller there, about "
+       << nearText(finer.firstDefects.places) << ": they are made smaller there, about "
        << std::llround(plan.quads)
        << " quads altogether; close the handle for a result without this";
   finer.notice = text.str();
   return plan;
 }
 
-std::optional<Plan> moreQuads(const Trouble& trouble)
+std::optional<Plan> moreQuads(const AttemptFailure& failure)
 {
-  const RunContext& run = trouble.run;
-  Plan plan = newRound(withoutShrinks(trouble.attempt.plan));
+  const RunContext& run = failure.run;
+  Plan plan = newRound(withoutShrinks(failure.attempt.plan));
   FinerGrid& finer = plan.finer;
   // The first time after sizes were tried it is their beginning that counts.
   const bool afterSizes = finer.shrinks > 0 && finer.doublings == 0;
-  const GridTroubles* grid = trouble.grid ? &*trouble.grid : nullptr;
-  grid = afterSizes ? &finer.firstTroubles : grid;
-  if (!asksForFinerGrid(trouble) || grid == nullptr ||
-    static_cast<std::size_t>(finer.doublings) >= trouble.bound ||
-    isNoMatterOfSize(plan, trouble.grid))
+  const GridDefects* grid = failure.grid ? &*failure.grid : nullptr;
+  grid = afterSizes ? &finer.firstDefects : grid;
+  if (!asksForFinerGrid(failure) || grid == nullptr ||
+    static_cast<std::size_t>(finer.doublings) >= failure.bound ||
+    isNoMatterOfSize(plan, failure.grid))
   {
     return std::nullopt;
   }
   ++finer.doublings;
-  finer.defects = grid->defects;
+  finer.defects = grid->count;
   plan.quads = quadsFor(run, plan, 0);
   std::ostringstream text;
   text << "quads of the wanted size do not fit round a handle or a thin part";
@@ -384,32 +383,32 @@ std::optional<Plan> moreQuads(const Trouble& trouble)
   return plan;
 }
 
-std::optional<Plan> fewerFeatures(const Trouble& trouble)
+std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
 {
-  const RunContext& run = trouble.run;
-  const Attempt& attempt = trouble.attempt;
-  std::vector<Vector3> places = trouble.places;
+  const RunContext& run = failure.run;
+  const Attempt& attempt = failure.attempt;
+  std::vector<Vector3> places = failure.places;
   Plan plan = newRound(attempt.plan);
-  if (trouble.failed)
+  if (failure.withoutQuads)
   {
-    if (isNoMatterOfSize(plan, trouble.grid))
+    if (isNoMatterOfSize(plan, failure.grid))
     {
-      places.insert(places.end(), trouble.grid->places.begin(), trouble.grid->places.end());
+      places.insert(places.end(), failure.grid->places.begin(), failure.grid->places.end());
     }
     plan = withoutShrinks(plan);
     plan.finer = {};
     plan.quads = quadsFor(run, plan, 0);
   }
-  std::vector<FeatureDrop> drops = dropsAt(trouble, places);
-  std::vector<Index> features = featuresNear(trouble, drops);
-  const double farthest = trouble.surface->boundingBoxDiagonal;
-  while (trouble.failed && features.empty() && !drops.empty() && drops.front().radius < farthest)
+  std::vector<FeatureDrop> drops = dropsAt(failure, places);
+  std::vector<Index> features = featuresNear(failure, drops);
+  const double farthest = failure.surface->boundingBoxDiagonal;
+  while (failure.failed && features.empty() && !drops.empty() && drops.front().radius < farthest)
   {
     for (FeatureDrop& drop : drops)
     {
       drop.radius *= 2;
     }
-    features = featuresNear(trouble, drops);
+    features = featuresNear(failure, drops);
   }
   if (isTooLarge(attempt) || features.empty())
   {
@@ -423,10 +422,11 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
   return plan;
 }
 
-std::optional<Plan> fewerBorders(const Trouble& trouble)
+std::optional<Plan> fewerBorders(const AttemptFailure& failure)
 {
-  return trouble.failed && !isTooLarge(trouble.attempt) && trouble.attempt.plan.borderDrops > 0
-    ? withFewerBorders(trouble.run, trouble.attempt.plan, trouble.places)
+  return failure.withoutQuads && !isTooLarge(failure.attempt) &&
+      failure.attempt.plan.borderDrops > 0
+    ? withFewerBorders(failure.run, failure.attempt.plan, failure.places)
     : std::nullopt;
 }
 
@@ -488,13 +488,13 @@ std::optional<Plan> withoutFeatures(const RunContext& run, const Plan& before)
   return plan;
 }
 
-std::optional<Plan> noBorders(const Trouble& trouble)
+std::optional<Plan> noBorders(const AttemptFailure& failure)
 {
-  const RunContext& run = trouble.run;
-  const Mesh& mesh = trouble.surface->mesh;
-  const Plan& before = trouble.attempt.plan;
+  const RunContext& run = failure.run;
+  const Mesh& mesh = failure.surface->mesh;
+  const Plan& before = failure.attempt.plan;
   const std::vector<Index> all = allOf(mesh, isYieldingFeature);
-  if (all.empty() || isTooLarge(trouble.attempt) || before.borderDrops == 0)
+  if (all.empty() || isTooLarge(failure.attempt) || before.borderDrops == 0)
   {
     return std::nullopt;
   }
@@ -508,13 +508,13 @@ std::optional<Plan> noBorders(const Trouble& trouble)
   return plan;
 }
 
-std::optional<Plan> noFeatures(const Trouble& trouble)
+std::optional<Plan> noFeatures(const AttemptFailure& failure)
 {
-  const std::vector<std::string>& steps = trouble.history.steps();
+  const std::vector<std::string>& steps = failure.history.steps();
   const auto times = std::count(steps.begin(), steps.end(), tryRow(Try::NoFeatures).name);
-  return static_cast<std::size_t>(times) >= trouble.bound || isTooLarge(trouble.attempt)
+  return static_cast<std::size_t>(times) >= failure.bound || isTooLarge(failure.attempt)
     ? std::nullopt
-    : withoutFeatures(trouble.run, trouble.attempt.plan);
+    : withoutFeatures(failure.run, failure.attempt.plan);
 }
 
 } // namespace quadrille

@@ -18,69 +18,69 @@ namespace quadrille
 constexpr std::size_t kMostFeatureDrops = 4;
 constexpr std::size_t kMostBorderDrops = 6;
 
-/// What there is to mend.
-struct Trouble
+/// What there is to mend: an attempt without quads, or with some that are inverted at folds of its map.
+struct AttemptFailure
 {
   RunContext& run;
   const History& history;
   const Attempt& attempt;      ///< of the round
   PlannedSurface surface;      ///< by its plan
   std::vector<Vector3> places; ///< where the map or its quads failed
-  bool failed = true;          ///< else there are quads, but some are inverted at folds of the map
-  std::optional<GridTroubles> grid;
+  bool withoutQuads = true;    ///< else some of them are inverted
+  std::optional<GridDefects> grid;
   std::size_t bound = 0; ///< of the strategy that is asked
 };
 
 // For another map of the same round.
 
-/// Where the coarse map fails: keeps the intermediate vertices near the offenders and raises the budget by their number
-/// and a half. Where the coarse level has all of the intermediate one already, both get about twice as many. Bound:
-/// times one after the other.
-std::optional<Plan> moreFreedom(const Trouble& trouble);
+/// Where the coarse map fails: keeps the intermediate vertices near those that it failed at, and raises the budget by
+/// their number and a half. Where the coarse level has all of the intermediate one already, both get about twice as
+/// many. Bound: times one after the other.
+std::optional<Plan> moreFreedom(const AttemptFailure& failure);
 
 /// Where a map was made by leaving curves out, vertices round the places where it could not be made with them are kept
 /// on the coarse level.
 /// Bound: times in a round.
-std::optional<Plan> roomForCurves(const Trouble& trouble);
+std::optional<Plan> roomForCurves(const AttemptFailure& failure);
 
 /// Where the surface's triangles have no room for the map, their vertices are kept on all levels, so that the coarse
 /// map shows what there is.
 /// Bound: times in a round.
-std::optional<Plan> keptOffenders(const Trouble& trouble);
+std::optional<Plan> keptDefects(const AttemptFailure& failure);
 
 // For another round.
 
 /// Where quads of the coarse map touch themselves: smaller quads there. Bound: times one after the other.
-std::optional<Plan> smallerQuadsNear(const Trouble& trouble);
+std::optional<Plan> smallerQuadsNear(const AttemptFailure& failure);
 
 /// Where smaller quads near the places do not do: twice as many everywhere. Bound: times one after the other.
-std::optional<Plan> moreQuads(const Trouble& trouble);
+std::optional<Plan> moreQuads(const AttemptFailure& failure);
 
 /// Features that only the dihedral angle asked for are given up near the places of a failure, twice as far as the last
 /// time where a place fails again, and after a failure so far that there are some; or near folds at which quads are
 /// inverted. Bound: times in all, for quads that are inverted.
-std::optional<Plan> fewerFeatures(const Trouble& trouble);
+std::optional<Plan> fewerFeatures(const AttemptFailure& failure);
 
 /// After a failure, features that were asked for but yield (kYieldingFeature), borders of patches, change: first those
 /// whose junctions are too near to each other are led together, then those are given up that quads of this size cannot
 /// resolve, by the rules for detected ones, then those near the places of the failure, then those that larger quads
 /// could not resolve. Only after a plan of withFewerBorders, with which attempts begin again where none has had quads
 /// with all borders. Bound: times in all.
-std::optional<Plan> fewerBorders(const Trouble& trouble);
+std::optional<Plan> fewerBorders(const AttemptFailure& failure);
 /// The next of these steps of a plan; none where nothing yields. places: of the failure.
 std::optional<Plan> withFewerBorders(
   const RunContext& run, const Plan& before, const std::vector<Vector3>& places);
 
 /// Where nothing else has led to quads: all features that only the dihedral angle asked for are given up. Bound: times
 /// in all.
-std::optional<Plan> noFeatures(const Trouble& trouble);
+std::optional<Plan> noFeatures(const AttemptFailure& failure);
 
 /// The plan of noFeatures; none where there is no such feature.
 std::optional<Plan> withoutFeatures(const RunContext& run, const Plan& before);
 
 /// Where that has not led to quads either: features that yield are given up but for long ones far from each other, and
 /// then all. Bound: times in all.
-std::optional<Plan> noBorders(const Trouble& trouble);
+std::optional<Plan> noBorders(const AttemptFailure& failure);
 
 /// Calls the plan by what has made it.
 void setStep(Plan& plan, Try which);
@@ -93,8 +93,8 @@ bool leavesNoArea(const MapAttempt& map);
 
 /// How far round each of the places features are given up: half an edge length where it has not failed before, else
 /// twice as far as then.
-std::vector<FeatureDrop> dropsAt(const Trouble& trouble, const std::vector<Vector3>& places);
+std::vector<FeatureDrop> dropsAt(const AttemptFailure& failure, const std::vector<Vector3>& places);
 /// The features that go then.
-std::vector<Index> featuresNear(const Trouble& trouble, const std::vector<FeatureDrop>& drops);
+std::vector<Index> featuresNear(const AttemptFailure& failure, const std::vector<FeatureDrop>& drops);
 
 } // namespace quadrille

@@ -6,6 +6,7 @@
 #include "Base/Clock.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Features/Features.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/EdgeRuns.h"
@@ -28,10 +29,8 @@ namespace
 
 void checkOptions(const PrepareOptions& options)
 {
-  if (options.featureAngle && !(*options.featureAngle > 0 && *options.featureAngle <= kPi))
-  {
-    throw InvalidInput("the feature angle must be above 0 and at most 180 degrees.");
-  }
+  refuseIf(options.featureAngle && !(*options.featureAngle > 0 && *options.featureAngle <= kPi),
+    "the feature angle must be above 0 and at most 180 degrees.");
 }
 
 void requireFaces(const PreparedSurface& surface)
@@ -71,14 +70,11 @@ double sumOfAreas(const Mesh& mesh, int threads)
   for (std::size_t first = 0; first < mesh.faceCount(); first += kFacesAtOnce)
   {
     const std::size_t count = std::min(kFacesAtOnce, mesh.faceCount() - first);
-    parallelFor(count, kAreaChunk, threads,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(count, kAreaChunk, threads,
+      [&](std::size_t i)
       {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          const Index h = static_cast<Index>(3 * (first + i));
-          areas[i] = mesh.edgeVector(h).cross(mesh.edgeVector(h + 1)).norm() / 2;
-        }
+        const Index h = static_cast<Index>(3 * (first + i));
+        areas[i] = mesh.edgeVector(h).cross(mesh.edgeVector(h + 1)).norm() / 2;
       });
     for (std::size_t i = 0; i < count; ++i)
     {

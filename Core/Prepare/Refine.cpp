@@ -5,6 +5,7 @@
 #include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Mesh/ComponentSizes.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
@@ -421,10 +422,8 @@ void splitChords(PreparedSurface& surface)
 void refineSurface(
   PreparedSurface& surface, double maximumEdgeLength, const ProgressCallback& progress, int threads)
 {
-  if (!(maximumEdgeLength > 0) || !std::isfinite(maximumEdgeLength))
-  {
-    throw InvalidInput("the maximum edge length must be positive and finite.");
-  }
+  refuseIf(!(maximumEdgeLength > 0) || !std::isfinite(maximumEdgeLength),
+    "the maximum edge length must be positive and finite.");
   const Index facesBefore = surface.mesh.faceCount();
   const std::vector<Index> entriesBefore = surface.refinedEntry;
   report(progress, 0, "Splitting long edges");

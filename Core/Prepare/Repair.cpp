@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/SurfaceEdit.h"
@@ -29,31 +30,21 @@ constexpr Index kFewestClosedFaces = 4;
 
 void requireSize(const char* name, std::size_t size, std::size_t polygons)
 {
-  if (size != 0 && size != polygons)
-  {
-    throw InvalidInput(std::string(name) + " has " + std::to_string(size) + " values for " +
-      std::to_string(polygons) + " polygons: give one value a polygon, or none.");
-  }
+  refuseIf(size != 0 && size != polygons, name, " has ", size, " values for ", polygons,
+    " polygons: give one value a polygon, or none.");
 }
 
 void checkOffsets(const SurfaceInput& input)
 {
   const std::vector<Index>& offsets = input.polygonOffsets;
-  if (offsets.front() != 0 || offsets.back() != input.polygonPoints.size())
-  {
-    throw InvalidInput("the polygon offsets run from " + std::to_string(offsets.front()) + " to " +
-      std::to_string(offsets.back()) + " but there are " +
-      std::to_string(input.polygonPoints.size()) + " corners.");
-  }
+  refuseIf(offsets.front() != 0 || offsets.back() != input.polygonPoints.size(),
+    "the polygon offsets run from ", offsets.front(), " to ", offsets.back(), " but there are ",
+    input.polygonPoints.size(), " corners.");
   for (std::size_t i = 0; i + 1 < offsets.size(); ++i)
   {
     pollNowAndThen(i);
-    if (offsets[i] > offsets[i + 1])
-    {
-      throw InvalidInput("polygon " + std::to_string(i) +
-        " ends before it begins: its offsets are " + std::to_string(offsets[i]) + " and " +
-        std::to_string(offsets[i + 1]) + ".");
-    }
+    refuseIf(offsets[i] > offsets[i + 1], "polygon ", i, " ends before it begins: its offsets are ",
+      offsets[i], " and ", offsets[i + 1], ".");
   }
 }
 
@@ -134,15 +125,11 @@ void checkArrays(const SurfaceInput& input)
 
 void checkInput(const SurfaceInput& input, int threads)
 {
-  if (input.points.empty() || input.polygonOffsets.size() < 2 || input.polygonPoints.empty())
-  {
-    throw InvalidInput("the surface is empty: it has " + std::to_string(input.points.size()) +
-      " points and no polygon with corners. Connect a surface with polygons.");
-  }
-  if (input.points.size() >= kInvalidIndex || input.polygonPoints.size() >= kInvalidIndex)
-  {
-    throw InvalidInput("the surface has more than 4294967294 points or corners: reduce it first.");
-  }
+  refuseIf(input.points.empty() || input.polygonOffsets.size() < 2 || input.polygonPoints.empty(),
+    "the surface is empty: it has ", input.points.size(),
+    " points and no polygon with corners. Connect a surface with polygons.");
+  refuseIf(input.points.size() >= kInvalidIndex || input.polygonPoints.size() >= kInvalidIndex,
+    "the surface has more than 4294967294 points or corners: reduce it first.");
   checkOffsets(input);
   checkArrays(input);
   checkIds(input, threads);

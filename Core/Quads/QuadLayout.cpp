@@ -49,7 +49,7 @@ public:
     {
       throw InvalidInput("the layout needs quads with four different points, these have " +
         topology.text() + ", one of them near " +
-        placeText(mesh.points[topology.offendingPoints.front()]));
+        placeText(mesh.points[topology.defectPoints.front()]));
     }
     twin_ = std::move(topology.twin);
   }

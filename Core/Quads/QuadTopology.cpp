@@ -172,7 +172,7 @@ void countEdge(Index p, Index neighbour, SpokeRange outBegin, SpokeRange outEnd,
   if (out > 1)
   {
     counts.nonManifoldEdges += static_cast<std::size_t>(out);
-    counts.offendingPoints.insert(counts.offendingPoints.end(), static_cast<std::size_t>(out), p);
+    counts.defectPoints.insert(counts.defectPoints.end(), static_cast<std::size_t>(out), p);
   }
   else if (in == 1)
   {
@@ -229,7 +229,7 @@ void checkFan(const Cells& cells, const LeavingHalfEdges& corners, Index p,
   if (count == 0 || fanSize(cells, twin, corners.first(p)) != count)
   {
     ++(count == 0 ? counts.isolatedPoints : counts.nonManifoldVertices);
-    counts.offendingPoints.push_back(p);
+    counts.defectPoints.push_back(p);
   }
 }
 
@@ -249,7 +249,7 @@ void checkCell(const Cells& cells, std::size_t cell, DisjointSets& sets, QuadCou
   if (isDegenerate)
   {
     ++counts.degenerateQuads;
-    counts.offendingPoints.push_back(cells.point(first));
+    counts.defectPoints.push_back(cells.point(first));
   }
 }
 
@@ -344,7 +344,7 @@ void QuadCounts::add(const QuadCounts& other)
   nonManifoldVertices += other.nonManifoldVertices;
   degenerateQuads += other.degenerateQuads;
   isolatedPoints += other.isolatedPoints;
-  append(offendingPoints, other.offendingPoints);
+  append(defectPoints, other.defectPoints);
 }
 
 std::vector<std::vector<Index>> boundaryLoops(const QuadTopology& topology)

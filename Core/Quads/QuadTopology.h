@@ -22,7 +22,7 @@ struct QuadCounts
   std::size_t nonManifoldVertices = 0; ///< more than one fan of quads
   std::size_t degenerateQuads = 0;     ///< a point twice in one quad
   std::size_t isolatedPoints = 0;
-  std::vector<Index> offendingPoints; ///< points where something is wrong, some more than once
+  std::vector<Index> defectPoints; ///< points where something is wrong, some more than once
 
   void add(const QuadCounts& other);
 };

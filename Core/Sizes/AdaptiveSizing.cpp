@@ -213,16 +213,12 @@ void checkAdaptiveSizes(const AdaptiveSizes& sizes)
 {
   refuseIf(sizes.chordError && !(*sizes.chordError > 0 && std::isfinite(*sizes.chordError)),
     "the chord error must be a positive number");
-  if (!(sizes.gapQuads >= 0 && std::isfinite(sizes.gapQuads)))
-  {
-    throw InvalidInput("the number of quads across a gap must be 0 or a positive number");
-  }
+  refuseIf(!(sizes.gapQuads >= 0 && std::isfinite(sizes.gapQuads)),
+    "the number of quads across a gap must be 0 or a positive number");
   refuseIf(!(sizes.smallest > 0 && sizes.smallest <= 1),
     "the smallest size must be above 0 and at most 1");
-  if (!(sizes.largest >= 1 && std::isfinite(sizes.largest)))
-  {
-    throw InvalidInput("the largest size must be a number from 1 on");
-  }
+  refuseIf(!(sizes.largest >= 1 && std::isfinite(sizes.largest)),
+    "the largest size must be a number from 1 on");
 }
 
 std::vector<float> adaptiveLengths(

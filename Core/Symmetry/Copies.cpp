@@ -184,7 +184,7 @@ Index countEdges(QuadMesh& quads)
   QuadTopology topology = analyzeQuads(quads.quads, quads.points.size());
   quads.valence = std::move(topology.valence);
   quads.onBoundary = std::move(topology.onBoundary);
-  return topology.nonManifoldEdges > 0 ? topology.offendingPoints.back() : kInvalidIndex;
+  return topology.nonManifoldEdges > 0 ? topology.defectPoints.back() : kInvalidIndex;
 }
 
 CutQuads cutInPlane(const QuadMesh& part, const CopiedMesh& copied)
@@ -290,12 +290,12 @@ CopiedQuads copyQuads(
   const Index crowded = countEdges(quads);
   if (crowded != kInvalidIndex)
   {
-    const std::string place = placeText(quads.points[crowded]);
+    const std::string where = placeText(quads.points[crowded]);
     result.status = { StatusCode::NotConverged,
       isometry.isReflection
         ? "the half in front of the mirror plane is one quad wide from plane to plane near " +
-          place + ", so that with its image it would be two quads round: it needs more quads"
-        : "a wedge is one quad wide near " + place +
+          where + ", so that with its image it would be two quads round: it needs more quads"
+        : "a wedge is one quad wide near " + where +
           ", so that with its images it would be two quads round: it needs more quads" };
   }
   return result;

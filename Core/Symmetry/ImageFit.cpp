@@ -137,14 +137,8 @@ private:
   std::vector<Vector3> nearestPlaces() const
   {
     std::vector<Vector3> places(count_);
-    parallelFor(count_, kFitChunk, threads_,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          places[i] = nearestPlace(i);
-        }
-      });
+    parallelForEach(
+      count_, kFitChunk, threads_, [&](std::size_t i) { places[i] = nearestPlace(i); });
     return places;
   }
 
@@ -192,27 +186,21 @@ private:
     fit.images.resize(count_);
     fit.quadPolygons.resize(quads_.quads.size() - copied_.partQuads);
     const PreparedSurface& surface = whole_.surface;
-    parallelFor(count_, kFitChunk, threads_,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(count_, kFitChunk, threads_,
+      [&](std::size_t i)
       {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          const auto at = whole_.nearestFace(quads_.points[first_ + i], normals_[first_ + i]);
-          fit.images[i] = surface.locate(at.triangle, at.weights);
-        }
+        const auto at = whole_.nearestFace(quads_.points[first_ + i], normals_[first_ + i]);
+        fit.images[i] = surface.locate(at.triangle, at.weights);
       });
-    parallelFor(fit.quadPolygons.size(), kFitChunk, threads_,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(fit.quadPolygons.size(), kFitChunk, threads_,
+      [&](std::size_t q)
       {
-        for (std::size_t q = begin; q < end; ++q)
-        {
-          const std::array<Index, 4>& quad = quads_.quads[copied_.partQuads + q];
-          const Vector3 centre = (quads_.points[quad[0]] + quads_.points[quad[1]] +
-                                   quads_.points[quad[2]] + quads_.points[quad[3]]) /
-            4;
-          const Vector3 normal = normalOf(quads_, quad);
-          fit.quadPolygons[q] = surface.sourcePolygon[whole_.nearestFace(centre, normal).triangle];
-        }
+        const std::array<Index, 4>& quad = quads_.quads[copied_.partQuads + q];
+        const Vector3 centre = (quads_.points[quad[0]] + quads_.points[quad[1]] +
+                                 quads_.points[quad[2]] + quads_.points[quad[3]]) /
+          4;
+        const Vector3 normal = normalOf(quads_, quad);
+        fit.quadPolygons[q] = surface.sourcePolygon[whole_.nearestFace(centre, normal).triangle];
       });
   }
 

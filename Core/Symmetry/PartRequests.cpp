@@ -149,17 +149,14 @@ std::string askGuides(const PartTask& task, SurfacePart& part)
     contradicts[t] = differs ? 1 : 0;
     return own.isFree() ? image : own;
   };
-  parallelFor(count, kAskChunk, task.threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(count, kAskChunk, task.threads,
+    [&](std::size_t t)
     {
-      for (std::size_t t = begin; t < end; ++t)
+      const Guide guide = guideAt(t);
+      if (!guide.isFree())
       {
-        const Guide guide = guideAt(t);
-        if (!guide.isFree())
-        {
-          part.input.guideDirections[t] = guide.direction;
-          part.input.guideWeights[t] = double{ guide.weight };
-        }
+        part.input.guideDirections[t] = guide.direction;
+        part.input.guideWeights[t] = double{ guide.weight };
       }
     });
   const auto first = std::find(contradicts.begin(), contradicts.end(), 1);
@@ -379,23 +376,20 @@ void askSizes(const PartTask& task, SurfacePart& part)
   }
   std::vector<float>& sizing = part.input.sizing;
   sizing.assign(cornerOf.size(), 0);
-  parallelFor(sizing.size(), kAskChunk, task.threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(sizing.size(), kAskChunk, task.threads,
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      const Index corner = cornerOf[i];
+      const Index f = part.face[corner / 3];
+      double size = sizeIn(f, part.weights[corner / 3][corner % 3]);
+      if (size == 1 && !task.isometry.fixes(input.points[i], task.tolerance))
       {
-        const Index corner = cornerOf[i];
-        const Index f = part.face[corner / 3];
-        double size = sizeIn(f, part.weights[corner / 3][corner % 3]);
-        if (size == 1 && !task.isometry.fixes(input.points[i], task.tolerance))
+        if (const auto found = asking.at(input.points[i], faceNormalOf(mesh, f)))
         {
-          if (const auto found = asking.at(input.points[i], faceNormalOf(mesh, f)))
-          {
-            size = sizeIn(found->place.triangle, found->place.weights);
-          }
+          size = sizeIn(found->place.triangle, found->place.weights);
         }
-        sizing[i] = static_cast<float>(size);
       }
+      sizing[i] = static_cast<float>(size);
     });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 // The points of a seam half way between their two places, and those round it: fitSeams.
+#include "Base/Lists.h"
 #include "Evaluation/QuadQuality.h"
 #include "Symmetry/Seams.h"
 
@@ -123,8 +124,7 @@ private:
     }
     for (std::vector<Index>& all : neighbours_)
     {
-      std::sort(all.begin(), all.end());
-      all.erase(std::unique(all.begin(), all.end()), all.end());
+      sortUnique(all);
     }
   }
 

@@ -3,6 +3,7 @@
 #include "Symmetry/Symmetry.h"
 
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Base/TryCount.h"
 #include "Symmetry/SymmetryRun.h"
 
@@ -14,12 +15,9 @@ namespace quadrille
 SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options,
   const SymmetryOptions& symmetry, ResultStore* store)
 {
-  if (!input.detectedFeatures.empty())
-  {
-    throw InvalidInput(
-      "features that were detected on a finer surface cannot be cut by a symmetry: "
-      "give them as feature edges.");
-  }
+  refuseIf(!input.detectedFeatures.empty(),
+    "features that were detected on a finer surface cannot be cut by a symmetry: "
+    "give them as feature edges.");
   const TryScope tries; // but for those of the part's runs
   std::optional<SymmetryRun> run;
   // What is left to do after a stop that has kept the quads of the part is short, and does not ask again.
@@ -30,16 +28,12 @@ SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options
   ownOptions.progress = poll.callback();
   try
   {
-    if (symmetry.planeCurve == PlaneCurve::MidLine && symmetry.rotation)
-    {
-      throw InvalidInput("a mid-line of quads belongs to a mirror plane, and a rotation has none: "
-                         "choose an isoline, or a mirror plane");
-    }
-    if (symmetry.planeCurve == PlaneCurve::MidLine && options.method == MapMethod::Seamless)
-    {
-      throw InvalidInput("the method 'seamless' makes no quads, and a mid-line is made of them: "
-                         "choose scale aware, or an isoline for the plane's curve");
-    }
+    refuseIf(symmetry.planeCurve == PlaneCurve::MidLine && symmetry.rotation,
+      "a mid-line of quads belongs to a mirror plane, and a rotation has none: "
+      "choose an isoline, or a mirror plane");
+    refuseIf(symmetry.planeCurve == PlaneCurve::MidLine && options.method == MapMethod::Seamless,
+      "the method 'seamless' makes no quads, and a mid-line is made of them: "
+      "choose scale aware, or an isoline for the plane's curve");
     run.emplace(ownOptions, symmetry, store);
     SymmetricResult made = run->run(input);
     made.remeshed.tries.add(tries.counts());

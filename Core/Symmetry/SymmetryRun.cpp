@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Base/TryCount.h"
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
@@ -55,11 +56,8 @@ Isometry askedFor(const SymmetryOptions& symmetry)
     return Isometry::of(symmetry.plane.value_or(MirrorPlane()));
   }
   const int order = symmetry.rotation->order;
-  if (order < kLeastOrder || order > kMostOrder)
-  {
-    throw InvalidInput("the order of a rotation must be " + std::to_string(kLeastOrder) + " to " +
-      std::to_string(kMostOrder) + ", not " + std::to_string(order));
-  }
+  refuseIf(order < kLeastOrder || order > kMostOrder, "the order of a rotation must be ",
+    kLeastOrder, " to ", kMostOrder, ", not ", order);
   return Isometry::of(symmetry.rotation->axis.value_or(RotationAxis()), order);
 }
 

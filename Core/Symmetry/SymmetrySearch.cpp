@@ -211,14 +211,8 @@ Places nearestImages(const NearestTriangle& surface, const Isometry& isometry,
   const std::vector<Vector3>& samples, int threads)
 {
   Places places(samples.size());
-  parallelFor(samples.size(), kSampleChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        places[i] = *surface.at(isometry.image(samples[i]));
-      }
-    });
+  parallelForEach(samples.size(), kSampleChunk, threads,
+    [&](std::size_t i) { places[i] = *surface.at(isometry.image(samples[i])); });
   return places;
 }
 

@@ -43,14 +43,11 @@ std::array<std::int8_t, 3> DefectSearch::enteredBy(Index f) const
 std::vector<int> DefectSearch::countTurns(int threads) const
 {
   std::vector<std::int8_t> entered(mesh_.halfEdgeCount());
-  parallelFor(mesh_.faceCount(), kMendChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(mesh_.faceCount(), kMendChunk, threads,
+    [&](std::size_t f)
     {
-      for (std::size_t f = begin; f < end; ++f)
-      {
-        const std::array<std::int8_t, 3> corners = enteredBy(static_cast<Index>(f));
-        std::copy(corners.begin(), corners.end(), &entered[3 * f]);
-      }
+      const std::array<std::int8_t, 3> corners = enteredBy(static_cast<Index>(f));
+      std::copy(corners.begin(), corners.end(), &entered[3 * f]);
     });
   std::vector<int> turns(mesh_.vertexCount(), 0);
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)

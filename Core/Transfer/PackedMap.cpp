@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/PackedMap.h"
 
-#include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 
 #include <string>
 
@@ -13,11 +13,8 @@ namespace quadrille
 PackedMap::PackedMap(const Mesh& mesh, const std::vector<FixedVec2>& uv)
   : vertex_(mesh.vertexCount())
 {
-  if (uv.size() != mesh.halfEdgeCount())
-  {
-    throw InvalidInput("A map of " + std::to_string(uv.size()) +
-      " corners cannot be packed with a mesh of " + std::to_string(mesh.halfEdgeCount()) + ".");
-  }
+  refuseIf(uv.size() != mesh.halfEdgeCount(), "A map of ", uv.size(),
+    " corners cannot be packed with a mesh of ", mesh.halfEdgeCount(), ".");
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     pollNowAndThen(h);
@@ -36,11 +33,8 @@ PackedMap::PackedMap(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 
 std::vector<FixedVec2> PackedMap::unpack(const Mesh& mesh) const
 {
-  if (vertex_.size() != mesh.vertexCount())
-  {
-    throw InvalidInput("A map packed with " + std::to_string(vertex_.size()) +
-      " vertices cannot be unpacked with " + std::to_string(mesh.vertexCount()) + ".");
-  }
+  refuseIf(vertex_.size() != mesh.vertexCount(), "A map packed with ", vertex_.size(),
+    " vertices cannot be unpacked with ", mesh.vertexCount(), ".");
   std::vector<FixedVec2> uv;
   uv.reserve(mesh.halfEdgeCount());
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)

@@ -113,7 +113,7 @@ double PatchProblems::referenceScale(double& imageArea) const
     area += mesh_.faceArea(f);
     const Vector2 a = toDouble(uv_[3 * f + 1] - uv_[3 * f]);
     const Vector2 b = toDouble(uv_[3 * f + 2] - uv_[3 * f]);
-    image += 0.5 * (a.x() * b.y() - a.y() * b.x());
+    image += 0.5 * parallelogram(a, b);
   }
   imageArea = image > 0 ? image : std::max(area, 1e-12);
   return area > 0 && image > 0 ? std::sqrt(image / area) : 1.0;

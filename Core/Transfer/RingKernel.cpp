@@ -14,11 +14,6 @@ namespace quadrille
 namespace
 {
 
-double crossProduct(const Vector2& a, const Vector2& b)
-{
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// A convex polygon with room for one more vertex per clipping line.
 struct ConvexPolygon
 {
@@ -37,8 +32,8 @@ ConvexPolygon clip(const ConvexPolygon& polygon, const Vector2& a, const Vector2
   {
     const Vector2& p = polygon.at(i);
     const Vector2& q = polygon.at(i + 1);
-    const double sideP = crossProduct(b - a, p - a);
-    const double sideQ = crossProduct(b - a, q - a);
+    const double sideP = parallelogram(b - a, p - a);
+    const double sideQ = parallelogram(b - a, q - a);
     if (sideP >= 0)
     {
       result.push(p);
@@ -62,7 +57,7 @@ Vector2 center(const ConvexPolygon& polygon)
   {
     const Vector2 p = polygon.at(i) - origin;
     const Vector2 q = polygon.at(i + 1) - origin;
-    const double piece = crossProduct(p, q);
+    const double piece = parallelogram(p, q);
     area += piece;
     weighted += piece * (p + q);
     mean += p / polygon.count;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/SurfaceStretch.h"
 
-#include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Hierarchy/LogRecords.h"
 #include "Transfer/PlaneReplay.h"
 
@@ -348,12 +348,8 @@ void checkLevel(const Level& level, const DecimationLog& log)
   const bool fits = level.fineFace.size() == level.mesh.faceCount() &&
     std::all_of(
       level.fineFace.begin(), level.fineFace.end(), [&](Index f) { return f < log.fineFaces; });
-  if (!fits)
-  {
-    throw InvalidInput("A level of " + std::to_string(level.mesh.faceCount()) +
-      " faces is not one of the surface of " + std::to_string(log.fineFaces) +
-      " faces that the decimation log was made for.");
-  }
+  refuseIf(!fits, "A level of ", level.mesh.faceCount(), " faces is not one of the surface of ",
+    log.fineFaces, " faces that the decimation log was made for.");
 }
 
 /// The intermediate level on the planes of the coarse one.
@@ -370,11 +366,8 @@ void layOutLevel(
   const auto localFace = [&](Index fineFace)
   {
     const Index f = faceOf[fineFace];
-    if (f == kInvalidIndex)
-    {
-      throw InvalidInput("Face " + std::to_string(fineFace) +
-        " of the surface is in the end of the decimation log, but not on the intermediate level.");
-    }
+    refuseIf(f == kInvalidIndex, "Face ", fineFace,
+      " of the surface is in the end of the decimation log, but not on the intermediate level.");
     return f;
   };
   for (Index f = 0; f < coarse.mesh.faceCount(); ++f)

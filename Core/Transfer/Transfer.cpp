@@ -6,6 +6,7 @@
 #include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "GridMap/MapCheck.h"
 #include "Transfer/ExpectedTurns.h"
 #include "Transfer/PatchMender.h"
@@ -27,18 +28,11 @@ constexpr std::size_t kCountChunk = 1 << 14;
 
 void checkFaces(const Level& level, Index fineFaces)
 {
-  if (level.fineFace.size() != level.mesh.faceCount())
-  {
-    throw InvalidInput("A level of " + std::to_string(level.mesh.faceCount()) + " faces names " +
-      std::to_string(level.fineFace.size()) + " faces of the surface.");
-  }
+  refuseIf(level.fineFace.size() != level.mesh.faceCount(), "A level of ", level.mesh.faceCount(),
+    " faces names ", level.fineFace.size(), " faces of the surface.");
   for (const Index f : level.fineFace)
   {
-    if (f >= fineFaces)
-    {
-      throw InvalidInput("A level names face " + std::to_string(f) + " of a surface of " +
-        std::to_string(fineFaces) + " faces.");
-    }
+    refuseIf(f >= fineFaces, "A level names face ", f, " of a surface of ", fineFaces, " faces.");
   }
 }
 
@@ -47,11 +41,8 @@ std::vector<FixedVec2> spreadOnSlots(const Level& coarse, const std::vector<Fixe
   Index fineFaces, const TransferOptions& options)
 {
   checkFaces(coarse, fineFaces);
-  if (coarseUv.size() != coarse.mesh.halfEdgeCount())
-  {
-    throw InvalidInput("The map has " + std::to_string(coarseUv.size()) +
-      " corners, but the coarse level has " + std::to_string(coarse.mesh.halfEdgeCount()) + ".");
-  }
+  refuseIf(coarseUv.size() != coarse.mesh.halfEdgeCount(), "The map has ", coarseUv.size(),
+    " corners, but the coarse level has ", coarse.mesh.halfEdgeCount(), ".");
   std::vector<FixedVec2> uv;
   if (options.spare != nullptr && options.spare->size() == 3 * std::size_t{ fineFaces })
   {
@@ -69,20 +60,15 @@ std::vector<FixedVec2> spreadOnSlots(const Level& coarse, const std::vector<Fixe
 
 void checkFineSize(const Mesh& fine, const DecimationLog& log)
 {
-  if (log.fineFaces != fine.faceCount())
-  {
-    throw InvalidInput("The decimation log was made for a surface of " +
-      std::to_string(log.fineFaces) + " faces, not of " + std::to_string(fine.faceCount()) + ".");
-  }
+  refuseIf(log.fineFaces != fine.faceCount(), "The decimation log was made for a surface of ",
+    log.fineFaces, " faces, not of ", fine.faceCount(), ".");
 }
 
 void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log)
 {
   checkFineSize(fine, log);
-  if (coarse.mesh.vertexCount() + log.collapses != fine.vertexCount())
-  {
-    throw InvalidInput("The coarse level does not belong to this decimation log.");
-  }
+  refuseIf(coarse.mesh.vertexCount() + log.collapses != fine.vertexCount(),
+    "The coarse level does not belong to this decimation log.");
 }
 
 std::size_t countNotPositive(const std::vector<FixedVec2>& uv, int threads)
@@ -142,7 +128,7 @@ TransferResult replayAndMend(const Mesh& fine, const Level& level, std::size_t r
       mendPatches(fine, result.uv, turns(), options.threads, options.progress);
     result.mendedPatches = mended.patches;
     result.notPositive = mended.notPositive;
-    result.offenders = verticesOf(fine, mended.defects);
+    result.defectVertices = verticesOf(fine, mended.defects);
   }
   return result;
 }
@@ -163,10 +149,7 @@ TransferResult transferFromLevel(const Mesh& fine, const Level& level, std::size
   const TransferOptions& options)
 {
   checkFineSize(fine, log);
-  if (turns.size() != fine.position.size())
-  {
-    throw InvalidInput("The turns have not the size of the surface.");
-  }
+  refuseIf(turns.size() != fine.position.size(), "The turns have not the size of the surface.");
   return replayAndMend(
     fine, level, rounds, log, uv, [&]() { return turns; }, options);
 }

@@ -35,7 +35,7 @@ struct TransferResult
   /// coarse map was invalid already. Where the finest mesh has too few triangles between irregular
   /// vertices or corners for what the coarse map asks there, no replay can be valid; keeping these vertices on
   /// the coarse level (HierarchyOptions::keepVertices) shows its map what there is.
-  std::vector<Index> offenders;
+  std::vector<Index> defectVertices;
 };
 
 /// Carries a map of the coarse level to the finest mesh. coarseUv: #H of coarse.mesh. Throws

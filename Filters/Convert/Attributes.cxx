@@ -163,18 +163,15 @@ void mixPoints(vtkAbstractArray* from, vtkAbstractArray* to,
   withValues(from, to,
     [&](auto* source, auto* target)
     {
-      parallelFor(origins.size(), kAttributeChunk, threads,
-        [&](std::size_t begin, std::size_t end)
+      parallelForEach(origins.size(), kAttributeChunk, threads,
+        [&](std::size_t i)
         {
-          for (std::size_t i = begin; i < end; ++i)
+          const PointOrigin& o = origins[i];
+          mixPoint(source, components, o, target + components * i);
+          if (normals)
           {
-            const PointOrigin& o = origins[i];
-            mixPoint(source, components, o, target + components * i);
-            if (normals)
-            {
-              normalize(target + components * i, components,
-                source + components * static_cast<std::size_t>(o.ids[largest(o.weights)]));
-            }
+            normalize(target + components * i, components,
+              source + components * static_cast<std::size_t>(o.ids[largest(o.weights)]));
           }
         });
     });
@@ -191,30 +188,27 @@ void mixCells(vtkAbstractArray* from, vtkAbstractArray* to, const CellOrigins& o
     [&](auto* source, auto* target)
     {
       using Real = std::remove_pointer_t<decltype(target)>;
-      parallelFor(origins.first.size() - 1, kAttributeChunk, threads,
-        [&](std::size_t begin, std::size_t end)
+      parallelForEach(origins.first.size() - 1, kAttributeChunk, threads,
+        [&](std::size_t q)
         {
-          for (std::size_t q = begin; q < end; ++q)
+          const auto* base =
+            source + components * static_cast<std::size_t>(origins.shares[origins.first[q]].cell);
+          for (std::size_t c = 0; c < components; ++c)
           {
-            const auto* base =
-              source + components * static_cast<std::size_t>(origins.shares[origins.first[q]].cell);
-            for (std::size_t c = 0; c < components; ++c)
+            double value = static_cast<double>(base[c]);
+            for (std::size_t i = origins.first[q] + 1; i < origins.first[q + 1]; ++i)
             {
-              double value = static_cast<double>(base[c]);
-              for (std::size_t i = origins.first[q] + 1; i < origins.first[q + 1]; ++i)
-              {
-                const CellOrigins::Share& share = origins.shares[i];
-                value += share.weight *
-                  (static_cast<double>(
-                     source[components * static_cast<std::size_t>(share.cell) + c]) -
-                    static_cast<double>(base[c]));
-              }
-              target[components * q + c] = rounded<Real>(value);
+              const CellOrigins::Share& share = origins.shares[i];
+              value += share.weight *
+                (static_cast<double>(
+                   source[components * static_cast<std::size_t>(share.cell) + c]) -
+                  static_cast<double>(base[c]));
             }
-            if (normals)
-            {
-              normalize(target + components * q, components, base);
-            }
+            target[components * q + c] = rounded<Real>(value);
+          }
+          if (normals)
+          {
+            normalize(target + components * q, components, base);
           }
         });
     });
@@ -380,14 +374,9 @@ void copyTuples(vtkAbstractArray* from, vtkAbstractArray* to, const Ids& ids, in
     static_cast<std::size_t>(from->GetNumberOfComponents() * from->GetDataTypeSize());
   const char* source = static_cast<const char*>(from->GetVoidPointer(0));
   char* target = static_cast<char*>(to->GetVoidPointer(0));
-  parallelFor(count, kAttributeChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        std::memcpy(target + bytes * i, source + bytes * static_cast<std::size_t>(ids(i)), bytes);
-      }
-    });
+  parallelForEach(count, kAttributeChunk, threads,
+    [&](std::size_t i)
+    { std::memcpy(target + bytes * i, source + bytes * static_cast<std::size_t>(ids(i)), bytes); });
 }
 
 /// The array itself, or a copy whose tuples lie one after the other where that is needed to mix them.

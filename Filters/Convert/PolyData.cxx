@@ -188,15 +188,12 @@ void readFeatureFlags(vtkPolyData* data, Mesh& mesh, int threads)
     return ((bits >> (h % 3)) & 1) != 0;
   };
   std::uint8_t* const flags = mesh.flags.edit();
-  parallelFor(mesh.halfEdgeCount(), kTupleChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(mesh.halfEdgeCount(), kTupleChunk, threads,
+    [&](Index h)
     {
-      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      if (isMarked(h) || (!mesh.isBoundary(h) && isMarked(mesh.twin[h])))
       {
-        if (isMarked(h) || (!mesh.isBoundary(h) && isMarked(mesh.twin[h])))
-        {
-          flags[h] |= kFeatureEdge;
-        }
+        flags[h] |= kFeatureEdge;
       }
     });
 }

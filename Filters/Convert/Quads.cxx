@@ -116,14 +116,8 @@ std::vector<PointOrigin> originsOf(const QuadMesh& mesh, const PointFunction& or
     return known;
   }
   std::vector<PointOrigin> origins(mesh.points.size());
-  parallelFor(origins.size(), kQuadChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        origins[i] = origin(mesh.sourceFace[i], mesh.sourceWeights[i]);
-      }
-    });
+  parallelForEach(origins.size(), kQuadChunk, threads,
+    [&](std::size_t i) { origins[i] = origin(mesh.sourceFace[i], mesh.sourceWeights[i]); });
   return origins;
 }
 

@@ -35,15 +35,12 @@ std::vector<PointOrigin> pointOrigins(
   const NearestTriangle& tree, const TriangleList& target, int threads)
 {
   std::vector<PointOrigin> origins(target.points.size());
-  parallelFor(origins.size(), kSoupQuestions, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(origins.size(), kSoupQuestions, threads,
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const NearestTriangle::Place place = nearestTo(tree, target.points[i]);
-        const std::array<Index, 3>& corners = tree.triangles().corners[place.triangle];
-        origins[i] = { { corners[0], corners[1], corners[2] }, place.weights };
-      }
+      const NearestTriangle::Place place = nearestTo(tree, target.points[i]);
+      const std::array<Index, 3>& corners = tree.triangles().corners[place.triangle];
+      origins[i] = { { corners[0], corners[1], corners[2] }, place.weights };
     });
   return origins;
 }
@@ -52,17 +49,13 @@ std::vector<vtkIdType> cellOrigins(
   const NearestTriangle& tree, const ConvertedSoup& from, const TriangleList& target, int threads)
 {
   std::vector<vtkIdType> origins(target.corners.size());
-  parallelFor(origins.size(), kSoupQuestions, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(origins.size(), kSoupQuestions, threads,
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const std::array<Index, 3>& c = target.corners[i];
-        const Vector3 centre =
-          (target.points[c[0]] + target.points[c[1]] + target.points[c[2]]) / 3;
-        const NearestTriangle::Place place = nearestTo(tree, centre);
-        origins[i] = from.surface.cell(from.soup.polygon[place.triangle]);
-      }
+      const std::array<Index, 3>& c = target.corners[i];
+      const Vector3 centre = (target.points[c[0]] + target.points[c[1]] + target.points[c[2]]) / 3;
+      const NearestTriangle::Place place = nearestTo(tree, centre);
+      origins[i] = from.surface.cell(from.soup.polygon[place.triangle]);
     });
   return origins;
 }

@@ -292,14 +292,11 @@ FoundPlaces findPlaces(vtkPolyData* quads, const std::vector<std::array<Index, 4
   {
     const std::unique_ptr<NearestTriangle> tree = treeOf(mesh);
     const std::vector<Vector3> normals = normalsAtPoints(points, corners);
-    parallelFor(lost.size(), kElementChunk, threads,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(lost.size(), kElementChunk, threads,
+      [&](std::size_t k)
       {
-        for (std::size_t k = begin; k < end; ++k)
-        {
-          SurfacePoint& place = found.places[lost[k]];
-          place = nearestPlace(*tree, mesh, points[lost[k]], normals[lost[k]], place, near);
-        }
+        SurfacePoint& place = found.places[lost[k]];
+        place = nearestPlace(*tree, mesh, points[lost[k]], normals[lost[k]], place, near);
       });
   }
   for (const std::size_t i : lost)

@@ -58,7 +58,7 @@ struct Failure
   std::uint64_t code = 0; ///< StatusCode of a StageFailure
   std::string text;
 
-  [[noreturn]] void raise(const std::string& place) const
+  [[noreturn]] void raise(const std::string& context) const
   {
     if (kind == kCancelled)
     {
@@ -66,17 +66,17 @@ struct Failure
     }
     if (kind == kInvalidInput)
     {
-      throw InvalidInput(place + text);
+      throw InvalidInput(context + text);
     }
     if (kind == kStageFailure)
     {
-      throw StageFailure(static_cast<StatusCode>(code), place + text);
+      throw StageFailure(static_cast<StatusCode>(code), context + text);
     }
     if (kind == kNoMemory)
     {
-      throw OutOfMemory(place + text);
+      throw OutOfMemory(context + text);
     }
-    throw std::runtime_error(place + text);
+    throw std::runtime_error(context + text);
   }
 };
 
@@ -224,7 +224,7 @@ void Ranks::agree(const std::string& error) const
   }
 }
 
-void Ranks::together(const std::string& place, const std::function<void()>& step) const
+void Ranks::together(const std::string& context, const std::function<void()>& step) const
 {
   Failure failure = failureOf(step);
   Packer packer;
@@ -233,7 +233,7 @@ void Ranks::together(const std::string& place, const std::function<void()>& step
   packer.text(failure.text);
   const std::vector<std::string> all = gather(packer.bytes());
   Failure first;
-  std::string where = place.empty() ? "" : place + ": ";
+  std::string where = context.empty() ? "" : context + ": ";
   for (std::size_t r = 0; r < all.size(); ++r)
   {
     Unpacker unpacker(all[r]);
@@ -244,7 +244,7 @@ void Ranks::together(const std::string& place, const std::function<void()>& step
     if (failure.kind == kCancelled || (failure.kind != kNone && first.kind == kNone))
     {
       where = (size() > 1 ? "rank " + std::to_string(r) + ": " : "") +
-        (place.empty() ? "" : place + ": ");
+        (context.empty() ? "" : context + ": ");
       first = failure;
     }
     if (first.kind == kCancelled)

@@ -60,9 +60,9 @@ public:
   /// Throws InvalidInput with the first text that is not empty, on all ranks.
   void agree(const std::string& error) const;
   /// Does a step that may fail on some ranks: where it does, all ranks throw what the first of them has thrown. The
-  /// text then begins with `place` and names the rank where there are several. Cancelled on one rank is Cancelled on
+  /// text then begins with `context` and names the rank where there are several. Cancelled on one rank is Cancelled on
   /// all.
-  void together(const std::string& place, const std::function<void()>& step) const;
+  void together(const std::string& context, const std::function<void()>& step) const;
   /// The sums over all ranks.
   void sum(std::vector<vtkIdType>& numbers) const;
   /// bytes[r] goes to rank r; returns what each rank has sent to this one. In pairs of ranks, so that none holds more

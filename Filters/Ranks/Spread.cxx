@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/Spread.h"
 
+#include "Base/Lists.h"
 #include "Base/Refuse.h"
 #include "Common/NewArray.h"
 #include "Common/Report.h"
@@ -413,8 +414,7 @@ void SpreadSurface::keepWhatAsks()
         " or a ", arrays::kConnectId, ", and of a spread surface each of them is kept, at most ",
         kMostKept, ": ask for fewer, or set Spread Surfaces to Never");
     }
-    std::sort(piece.kept.begin(), piece.kept.end());
-    piece.kept.erase(std::unique(piece.kept.begin(), piece.kept.end()), piece.kept.end());
+    sortUnique(piece.kept);
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stages/MappedInput.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
@@ -342,8 +343,7 @@ std::vector<Index> requestedVertices(vtkPolyData* data, const Mesh& mesh)
       vertices.push_back(mesh.origin[h]);
     }
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sortUnique(vertices);
   return vertices;
 }
 

@@ -354,7 +354,7 @@ TEST(Prescription, WhatCannotBeCompletedIsRefusedWithTheSum)
   options.targetValences.assign(mesh.vertexCount(), 4);
   const CrossField regular = computeCrossField(mesh, options);
   EXPECT_EQ(regular.status.code, StatusCode::Infeasible);
-  EXPECT_TRUE(regular.offenders.empty());
+  EXPECT_TRUE(regular.failedAt.empty());
   EXPECT_NE(regular.status.message.find("4 - valence has to sum up to 8"), std::string::npos)
     << regular.status.message;
   EXPECT_NE(regular.status.message.find("sum up to 0"), std::string::npos);

@@ -194,7 +194,7 @@ TEST(Embed, NamesFacesThatTheIntegersLeaveNoArea)
   const EmbedResult result = plate.embed();
   EXPECT_EQ(result.status.code, StatusCode::Infeasible);
   EXPECT_EQ(result.inverted.size(), 2u);
-  EXPECT_EQ(result.offenders.size(), 4u);
+  EXPECT_EQ(result.failedAt.size(), 4u);
 }
 
 TEST(Embed, RefusesFractionalAndInconsistentMaps)

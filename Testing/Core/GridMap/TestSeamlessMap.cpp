@@ -103,7 +103,7 @@ TEST(SeamlessMap, NamesVerticesWithTooFewTriangles)
   field.turns[0] += 4; // the equations only know it modulo 4
   const SeamlessResult result = seamlessMapOf(mesh, field, 0.5);
   EXPECT_EQ(result.status.code, StatusCode::Infeasible);
-  EXPECT_EQ(result.offenders, std::vector<Index>{ 0 });
+  EXPECT_EQ(result.failedAt, std::vector<Index>{ 0 });
 }
 
 TEST(SeamlessMap, RefusesABrokenField)

@@ -27,12 +27,12 @@ inline std::shared_ptr<MapAttempt> carriedMap(std::size_t defects)
   return map;
 }
 
-/// No map of the coarse level. offenders: vertices of the surface.
-inline std::shared_ptr<MapAttempt> failedMap(std::vector<Index> offenders = {})
+/// No map of the coarse level. failedAt: vertices of the surface.
+inline std::shared_ptr<MapAttempt> failedMap(std::vector<Index> failedAt = {})
 {
   auto map = std::make_shared<MapAttempt>();
   map->status = { StatusCode::NotConverged, "no valid map of the coarse mesh" };
-  map->coarseOffenders = std::move(offenders);
+  map->failedAt = std::move(failedAt);
   return map;
 }
 

@@ -147,7 +147,7 @@ TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
     std::vector<std::string>(
-      { "more freedom", "room for curves", "kept offenders", "smaller quads near", "more quads",
+      { "more freedom", "room for curves", "kept defects", "smaller quads near", "more quads",
         "fewer borders", "fewer features", "no features", "no borders" }));
 }
 
@@ -217,19 +217,19 @@ struct SphereRun : TestRun
   SphereRun() : TestRun(test::sphere(4), 0.3) { options.coarseVertices = 100; }
 };
 
-TEST(Recovery, MoreFreedomKeepsTheRingsRoundOffendersAndRaisesTheBudget)
+TEST(Recovery, MoreFreedomKeepsTheRingsRoundFailuresAndRaisesTheBudget)
 {
   SphereRun run;
   Plan plan = run.first();
   const Hierarchy& levels = run.levels(plan);
   ASSERT_LT(levels.intermediate.mesh.vertexCount(), run.mesh().vertexCount());
-  const std::vector<Index> offenders{ levels.coarse.fineVertex[7], levels.coarse.fineVertex[80] };
-  const std::vector<Index> rings = twoRings(levels.intermediate, offenders);
+  const std::vector<Index> failed{ levels.coarse.fineVertex[7], levels.coarse.fineVertex[80] };
+  const std::vector<Index> rings = twoRings(levels.intermediate, failed);
   const Index coarse = levels.coarse.mesh.vertexCount();
   ASSERT_EQ(coarse, 100U);
   ASSERT_GT(rings.size(), 25U);
   History history;
-  history.addMap(plan, failedMap(offenders));
+  history.addMap(plan, failedMap(failed));
   std::optional<Plan> next = nextMapPlan(run.context, history);
   expectStep(next, "more freedom");
   EXPECT_EQ(next->levels.keptVertices, rings);
@@ -240,11 +240,11 @@ TEST(Recovery, MoreFreedomKeepsTheRingsRoundOffendersAndRaisesTheBudget)
   // What was kept before stays, and counts only once.
   history = {};
   plan.levels.keptVertices = { rings[0] };
-  history.addMap(plan, failedMap(offenders));
+  history.addMap(plan, failedMap(failed));
   next = nextMapPlan(run.context, history);
   expectStep(next, "more freedom");
   const std::vector<Index>& onLevel = run.levels().coarse.fineVertex;
-  for (const Index v : { rings[0], offenders[0], offenders[1] })
+  for (const Index v : { rings[0], failed[0], failed[1] })
   {
     EXPECT_TRUE(
       std::binary_search(next->levels.keptVertices.begin(), next->levels.keptVertices.end(), v));
@@ -297,7 +297,7 @@ TEST(Recovery, MoreFreedomEndsAfterTwoTimesOneAfterTheOther)
   EXPECT_FALSE(nextMapPlan(run.context, history));
   // After something else it counts from the beginning.
   Plan other = first;
-  other.step = "kept offenders";
+  other.step = "kept defects";
   history.addMap(other, failedMap());
   EXPECT_TRUE(nextMapPlan(run.context, history));
 }
@@ -315,7 +315,7 @@ TEST(Recovery, MoreFreedomIsForCoarseFailuresThatCanBeMended)
   }
 }
 
-/// Whether there is another map after two attempts with so many offenders.
+/// Whether there is another map after two attempts with so many vertices that it failed at.
 bool goesOn(TestRun& run, Index before, Index after)
 {
   Plan plan = run.first();
@@ -326,7 +326,7 @@ bool goesOn(TestRun& run, Index before, Index after)
   return nextMapPlan(run.context, history).has_value();
 }
 
-TEST(Recovery, MoreFreedomHasToHalveManyOffenders)
+TEST(Recovery, MoreFreedomHasToHalveManyFailedVertices)
 {
   SphereRun run;
   EXPECT_TRUE(goesOn(run, 300, 150));
@@ -339,75 +339,75 @@ TEST(Recovery, MoreFreedomHasToHalveManyOffenders)
   EXPECT_TRUE(nextMapPlan(run.context, history));
 }
 
-// Offenders of the map on the surface are kept on all levels.
+// Vertices at defects of the map on the surface are kept on all levels.
 
 /// With a coarse level of a hundred vertices.
-std::shared_ptr<MapAttempt> mapWithOffenders(std::vector<Index> offenders, std::size_t defects = 1)
+std::shared_ptr<MapAttempt> mapWithDefectsAt(std::vector<Index> vertices, std::size_t defects = 1)
 {
   auto map = carriedMap(defects);
   map->coarse.mesh.position.assign(100, Vector3::Zero());
-  map->transfer.offenders = std::move(offenders);
+  map->transfer.defectVertices = std::move(vertices);
   return map;
 }
 
-TEST(Recovery, KeptOffendersAreAddedToThoseKeptAndToTheBudget)
+TEST(Recovery, KeptDefectsAreAddedToThoseKeptAndToTheBudget)
 {
   TestRun run(test::gridPlane(12, 12), 1);
   Plan plan = run.first();
   plan.levels.keptVertices = { 3, 50 };
   plan.levels.coarseVertices = 400;
   History history;
-  history.addMap(plan, mapWithOffenders({ 3, 7, 60 }));
+  history.addMap(plan, mapWithDefectsAt({ 3, 7, 60 }));
   std::optional<Plan> next = nextMapPlan(run.context, history);
-  expectStep(next, "kept offenders");
+  expectStep(next, "kept defects");
   EXPECT_EQ(next->levels.keptVertices, std::vector<Index>({ 3, 7, 50, 60 }));
   EXPECT_EQ(next->nextLevels.keptVertices, run.first().levels.keptVertices);
   EXPECT_EQ(next->levels.coarseVertices, 403U);
   // A budget by curvature must not shrink elsewhere because of these.
   plan.levels.coarseVertices = 0;
   history = {};
-  history.addMap(plan, mapWithOffenders({ 3, 7, 60 }));
+  history.addMap(plan, mapWithDefectsAt({ 3, 7, 60 }));
   next = nextMapPlan(run.context, history);
-  expectStep(next, "kept offenders");
+  expectStep(next, "kept defects");
   EXPECT_EQ(next->levels.coarseVertices, 103U);
 }
 
-TEST(Recovery, KeptOffendersEndAfterTwoTimesInARound)
+TEST(Recovery, KeptDefectsEndAfterTwoTimesInARound)
 {
   TestRun run(test::gridPlane(12, 12), 1);
   Plan again = run.first();
-  again.step = "kept offenders";
+  again.step = "kept defects";
   History history;
-  history.addMap(run.first(), mapWithOffenders({ 1 }, 9));
+  history.addMap(run.first(), mapWithDefectsAt({ 1 }, 9));
   EXPECT_TRUE(nextMapPlan(run.context, history));
-  history.addMap(again, mapWithOffenders({ 1 }, 8));
+  history.addMap(again, mapWithDefectsAt({ 1 }, 8));
   EXPECT_TRUE(nextMapPlan(run.context, history));
   Plan freedom = again;
   freedom.step = "more freedom";
-  history.addMap(freedom, mapWithOffenders({ 1 }, 7));
+  history.addMap(freedom, mapWithDefectsAt({ 1 }, 7));
   EXPECT_TRUE(nextMapPlan(run.context, history)); // one time only so far
-  history.addMap(again, mapWithOffenders({ 1 }, 6));
+  history.addMap(again, mapWithDefectsAt({ 1 }, 6));
   EXPECT_FALSE(nextMapPlan(run.context, history));
 }
 
-TEST(Recovery, KeptOffendersAreForTheBestMapOnly)
+TEST(Recovery, KeptDefectsAreForTheBestMapOnly)
 {
   TestRun run(test::gridPlane(12, 12), 1);
   Plan again = run.first();
-  again.step = "kept offenders";
+  again.step = "kept defects";
   History history;
-  history.addMap(run.first(), mapWithOffenders({ 1 }, 5));
-  history.addMap(again, mapWithOffenders({ 1 }, 5));
+  history.addMap(run.first(), mapWithDefectsAt({ 1 }, 5));
+  history.addMap(again, mapWithDefectsAt({ 1 }, 5));
   EXPECT_FALSE(nextMapPlan(run.context, history));
 }
 
-TEST(Recovery, KeptOffendersAreAtMostHalfOfTheCoarseLevel)
+TEST(Recovery, KeptDefectsAreAtMostHalfOfTheCoarseLevel)
 {
   TestRun run(test::gridPlane(12, 12), 1);
-  const auto offersFor = [&](std::vector<Index> offenders)
+  const auto offersFor = [&](std::vector<Index> vertices)
   {
     History history;
-    history.addMap(run.first(), mapWithOffenders(std::move(offenders)));
+    history.addMap(run.first(), mapWithDefectsAt(std::move(vertices)));
     return nextMapPlan(run.context, history).has_value();
   };
   EXPECT_TRUE(offersFor(vertices(50)));
@@ -415,15 +415,15 @@ TEST(Recovery, KeptOffendersAreAtMostHalfOfTheCoarseLevel)
   EXPECT_FALSE(offersFor({}));
 }
 
-TEST(Recovery, KeptOffendersAreNotForWhatTheMethodNeverPromised)
+TEST(Recovery, KeptDefectsAreNotForWhatTheMethodNeverPromised)
 {
   TestRun run(test::gridPlane(12, 12), 1);
   History folds;
-  folds.addMap(run.first(), mapWithOffenders({ 1 }));
+  folds.addMap(run.first(), mapWithDefectsAt({ 1 }));
   EXPECT_TRUE(nextMapPlan(run.context, folds));
   run.options.method = MapMethod::QuadCover;
   EXPECT_FALSE(nextMapPlan(run.context, folds));
-  const auto fractions = mapWithOffenders({ 1 }, 0);
+  const auto fractions = mapWithDefectsAt({ 1 }, 0);
   fractions->certificate.fractionalTransitions = 1;
   History history;
   history.addMap(run.first(), fractions);
@@ -445,20 +445,20 @@ struct CubeRun : TestRun
   Index inFace() const { return vertexAt({ 0.5, 0.5, 0 }); }
 };
 
-TEST(Recovery, KeptOffendersLeaveTheLastTimeToFeaturesThatCanBeGivenUp)
+TEST(Recovery, KeptDefectsLeaveTheLastTimeToFeaturesThatCanBeGivenUp)
 {
   CubeRun run;
-  const auto offersAfter = [&](const char* step, Index offender)
+  const auto offersAfter = [&](const char* step, Index vertex)
   {
     Plan plan = run.first();
     plan.step = step;
     History history;
-    history.addMap(plan, mapWithOffenders({ offender }));
+    history.addMap(plan, mapWithDefectsAt({ vertex }));
     return nextMapPlan(run.context, history).has_value();
   };
   EXPECT_TRUE(offersAfter("first", run.onEdge()));
-  EXPECT_FALSE(offersAfter("kept offenders", run.onEdge()));
-  EXPECT_TRUE(offersAfter("kept offenders", run.inFace()));
+  EXPECT_FALSE(offersAfter("kept defects", run.onEdge()));
+  EXPECT_TRUE(offersAfter("kept defects", run.inFace()));
 }
 
 // Smaller quads where those of the coarse map touch themselves.
@@ -469,9 +469,9 @@ TEST(Recovery, SmallerQuadsNearShrinkSizesNearThePlacesOnly)
   const Vector3 place(10, 10, 0), hopeless(30, 30, 0);
   run.context.shortLoops.hopelessPlaces = { hopeless };
   const auto map = mapWithTube(place);
-  const std::optional<GridTroubles> troubles = gridTroubles(run.context, *map);
-  ASSERT_TRUE(troubles);
-  ASSERT_FALSE(troubles->places.empty());
+  const std::optional<GridDefects> found = gridDefects(run.context, *map);
+  ASSERT_TRUE(found);
+  ASSERT_FALSE(found->places.empty());
   const std::optional<Plan> next = run.nextAfter(run.first(), map, failedQuads());
   expectStep(next, "smaller quads near");
   ASSERT_TRUE(next->sizes);
@@ -496,8 +496,8 @@ TEST(Recovery, SmallerQuadsNearShrinkSizesNearThePlacesOnly)
   EXPECT_EQ(next->finer.shrinks, 1);
   EXPECT_EQ(next->finer.areaBefore, 1600);
   EXPECT_EQ(next->finer.sizesBefore, nullptr);
-  EXPECT_EQ(next->finer.defects, troubles->defects);
-  EXPECT_EQ(next->finer.firstTroubles.defects, troubles->defects);
+  EXPECT_EQ(next->finer.defects, found->count);
+  EXPECT_EQ(next->finer.firstDefects.count, found->count);
   const double area = areaOverSizes(*run.context.surface, sizes);
   EXPECT_GT(area, 1640);
   EXPECT_DOUBLE_EQ(next->quads, kTarget * area / 1600);
@@ -517,7 +517,7 @@ TEST(Recovery, SmallerQuadsNearGoOnFromTheSizesOfBefore)
   EXPECT_EQ((*next->sizes)[run.vertexAt(hopeless)], 0.5F); // these were for the first time
   EXPECT_EQ(next->finer.shrinks, 2);
   EXPECT_EQ(next->finer.areaBefore, 1600);
-  EXPECT_EQ(next->finer.firstTroubles.defects, first->finer.firstTroubles.defects);
+  EXPECT_EQ(next->finer.firstDefects.count, first->finer.firstDefects.count);
   EXPECT_GT(next->finer.defects, first->finer.defects);
   EXPECT_DOUBLE_EQ(next->quads, kTarget * areaOverSizes(*run.context.surface, *next->sizes) / 1600);
 }
@@ -528,7 +528,7 @@ TEST(Recovery, SmallerQuadsNearEndAfterFourTimes)
   Plan plan = run.first();
   plan.finer.areaBefore = 1600;
   plan.finer.shrinks = 3;
-  plan.finer.firstTroubles = { 6, { Vector3(10, 10, 0) } };
+  plan.finer.firstDefects = { 6, { Vector3(10, 10, 0) } };
   const auto map = mapWithTube({ 10, 10, 0 });
   const std::optional<Plan> fourth = run.nextAfter(plan, map);
   expectStep(fourth, "smaller quads near");
@@ -556,7 +556,7 @@ TEST(Recovery, SmallerQuadsNearAreGivenBackWhereTheyWouldBeTooMany)
   expectStep(run.nextAfter(again, map), "more quads");
 }
 
-TEST(Recovery, SmallerQuadsAreNoHelpWithoutTroublesOfTheCoarseGrid)
+TEST(Recovery, SmallerQuadsAreNoHelpWithoutDefectsOfTheCoarseGrid)
 {
   TestRun run(test::gridPlane(40, 40), 1);
   EXPECT_FALSE(run.nextAfter(run.first(), carriedMap(1), failedQuads()));
@@ -626,7 +626,7 @@ TEST(Recovery, NoFinerGridOnceARoundHasQuads)
   }
 }
 
-TEST(Recovery, ManyOffendersAreNotKeptForTheNextRound)
+TEST(Recovery, ManyFailedVerticesAreNotKeptForTheNextRound)
 {
   SphereRun run;
   const Plan plan = run.first();
@@ -682,7 +682,7 @@ TEST(Recovery, MoreQuadsAfterSizesCompareWithTheFirstFailure)
   plan.finer.shrinks = 4;
   plan.finer.areaBefore = 144;
   plan.finer.defects = 1;
-  plan.finer.firstTroubles = { 77, { Vector3(6, 6, 0) } };
+  plan.finer.firstDefects = { 77, { Vector3(6, 6, 0) } };
   // Smaller quads may have mended the grid and led to another failure.
   for (const auto& map : { mapWithTube({ 2, 2, 0 }), carriedMap(1) })
   {
@@ -695,11 +695,11 @@ TEST(Recovery, MoreQuadsAfterSizesCompareWithTheFirstFailure)
 
 // Features that nobody asked for.
 
-/// A failure of the quads of a map with these offenders.
-std::shared_ptr<MapAttempt> mapWithFoldsAt(std::vector<Index> offenders)
+/// A failure of the quads of a map with defects at these vertices.
+std::shared_ptr<MapAttempt> mapWithFoldsAt(std::vector<Index> vertices)
 {
   auto map = carriedMap(1);
-  map->transfer.offenders = std::move(offenders);
+  map->transfer.defectVertices = std::move(vertices);
   return map;
 }
 
@@ -753,7 +753,7 @@ TEST(Recovery, FewerFeaturesAreForThePlacesOfACoarseFailureToo)
   const auto failed = failedMap();
   failed->hopeless = true;
   EXPECT_FALSE(run.nextAfter(run.first(), failed));
-  failed->coarseTroubles = { Vector3(0.5, 0, 0) };
+  failed->failedPlaces = { Vector3(0.5, 0, 0) };
   const std::optional<Plan> next = run.nextAfter(run.first(), failed);
   expectStep(next, "fewer features");
   EXPECT_EQ(givenUpAt(run, *next), std::vector<double>({ 0.4375, 0.5625 }));
@@ -807,7 +807,7 @@ TEST(Recovery, FewerFeaturesAreNoHelpAgainstALimitOfQuads)
   const auto map = mapWithFoldsAt({ run.onEdge() });
   EXPECT_FALSE(run.nextAfter(run.first(), map, failedQuads(StatusCode::TooLarge)));
   const auto failed = failedMap();
-  failed->coarseTroubles = { Vector3(0.5, 0, 0) };
+  failed->failedPlaces = { Vector3(0.5, 0, 0) };
   EXPECT_TRUE(run.nextAfter(run.first(), failed));
   failed->status.code = StatusCode::TooLarge;
   EXPECT_FALSE(run.nextAfter(run.first(), failed));
@@ -892,7 +892,7 @@ TEST(Recovery, FewerFeaturesFollowMoreQuadsThatWereNoMatterOfSize)
   plan.finer.mayShrink = false;
   // The coarse grid fails at the edge of the cube, the map on the surface at none.
   const auto map = mapWithTube({ 0.4375, 0, 0 });
-  map->transfer.offenders = { run.inFace() };
+  map->transfer.defectVertices = { run.inFace() };
   const std::optional<Plan> doubled = run.nextAfter(plan, map, failedQuads());
   expectStep(doubled, "more quads");
   const std::optional<Plan> next = run.nextAfter(*doubled, map, failedQuads());
@@ -907,7 +907,7 @@ TEST(Recovery, TheFirstStrategyWithAPlanIsTaken)
 {
   CubeRun run;
   const auto map = mapWithTube({ 0.5, 0, 0 });
-  map->transfer.offenders = { run.onEdge() };
+  map->transfer.defectVertices = { run.onEdge() };
   // All three have something to offer here.
   Plan plan = run.first();
   expectStep(run.nextAfter(plan, map, failedQuads()), "smaller quads near");
@@ -923,7 +923,7 @@ TEST(Recovery, GoodQuadsNeedNothing)
 {
   CubeRun run;
   const auto map = mapWithTube({ 0.5, 0, 0 });
-  map->transfer.offenders = { run.onEdge() };
+  map->transfer.defectVertices = { run.onEdge() };
   EXPECT_FALSE(run.nextAfter(run.first(), map, quadsWith(0)));
   const auto elsewhere = quadsWith(5);
   elsewhere->invertedAtFolds = false;
@@ -937,7 +937,7 @@ TEST(Recovery, NothingIsTriedOnceTheWorkIsSpent)
   bound.work = 1000;
   for (const std::size_t work : { 666U, 667U })
   {
-    const auto map = mapWithOffenders({ run.onEdge() });
+    const auto map = mapWithDefectsAt({ run.onEdge() });
     map->work = work;
     History history(bound);
     history.addMap(run.first(), map);
@@ -1016,7 +1016,7 @@ TEST(Recovery, NothingIsTriedForMethodsThatRoundOnceTheyHaveAMap)
   CubeRun run;
   const auto map = mapWithFoldsAt({ run.onEdge() });
   const auto failed = failedMap();
-  failed->coarseTroubles = { Vector3(0.5, 0, 0) };
+  failed->failedPlaces = { Vector3(0.5, 0, 0) };
   for (const MapMethod method : { MapMethod::MixedInteger, MapMethod::QuadCover })
   {
     run.options.method = method;

@@ -263,7 +263,7 @@ TEST(ResultStore, ClosedHandlesAreRemembered)
 
 TEST(ResultStore, WhatARetryFoundIsRememberedForTheNextEdit)
 {
-  // So deep in dents that the first map does not hold on the input and its offenders, which phase 1 has removed, come
+  // So deep in dents that the first map does not hold on the input and vertices of it, which phase 1 has removed, come
   // back.
   Mesh mesh = test::sphere(5);
   for (Vector3& p : mesh.position.editAll())

@@ -37,7 +37,7 @@ void expectSameTopology(const QuadTopology& a, const QuadTopology& b)
   EXPECT_EQ(a.boundaryEdges, b.boundaryEdges);
   EXPECT_EQ(a.boundaryLoops, b.boundaryLoops);
   EXPECT_EQ(a.eulerCharacteristic, b.eulerCharacteristic);
-  EXPECT_EQ(a.offendingPoints, b.offendingPoints);
+  EXPECT_EQ(a.defectPoints, b.defectPoints);
 }
 
 } // namespace
@@ -67,13 +67,13 @@ TEST(QuadTopology, NamesWhatIsNoManifold)
   // Three quads along edge (0, 1).
   const QuadTopology book = analyzeQuads({ { 0, 1, 2, 3 }, { 1, 0, 4, 5 }, { 0, 1, 6, 7 } }, 8);
   EXPECT_EQ(book.nonManifoldEdges, 2u);
-  EXPECT_EQ(book.offendingPoints.front(), 0u);
+  EXPECT_EQ(book.defectPoints.front(), 0u);
   // Two quads that run along edge (0, 1) the same way.
   EXPECT_EQ(analyzeQuads({ { 0, 1, 2, 3 }, { 0, 1, 4, 5 } }, 6).nonManifoldEdges, 2u);
   // Two quads that touch in point 0 only.
   const QuadTopology bow = analyzeQuads({ { 0, 1, 2, 3 }, { 0, 4, 5, 6 } }, 7);
   EXPECT_EQ(bow.nonManifoldVertices, 1u);
-  EXPECT_EQ(bow.offendingPoints, std::vector<Index>{ 0 });
+  EXPECT_EQ(bow.defectPoints, std::vector<Index>{ 0 });
   EXPECT_EQ(bow.components, 1u);
   const QuadTopology pinched = analyzeQuads({ { 0, 1, 0, 2 } }, 4);
   EXPECT_EQ(pinched.degenerateQuads, 1u);
