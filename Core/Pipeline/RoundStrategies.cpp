@@ -272,7 +272,7 @@ std::vector<FeatureDrop> dropsAt(const AttemptFailure& failure, const std::vecto
 {
   const Plan& plan = failure.attempt.plan;
   std::vector<FeatureDrop> drops;
-  if (static_cast<std::size_t>(plan.featureDrops) >= kMostFeatureDrops && !failure.failed)
+  if (static_cast<std::size_t>(plan.featureDrops) >= kMostFeatureDrops && !failure.withoutQuads)
   {
     return drops;
   }
@@ -402,7 +402,7 @@ std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
   std::vector<FeatureDrop> drops = dropsAt(failure, places);
   std::vector<Index> features = featuresNear(failure, drops);
   const double farthest = failure.surface->boundingBoxDiagonal;
-  while (failure.failed && features.empty() && !drops.empty() && drops.front().radius < farthest)
+  while (failure.withoutQuads && features.empty() && !drops.empty() && drops.front().radius < farthest)
   {
     for (FeatureDrop& drop : drops)
     {
