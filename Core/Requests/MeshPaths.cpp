@@ -58,21 +58,21 @@ public:
     bool isDone = false;
   };
 
-  explicit ReachedHalfEdges(Index halfEdges) : pages_(halfEdges / kPage + 1) {}
+  explicit ReachedHalfEdges(Index halfEdges) : pages_(halfEdges / kHalfEdgesOfPage + 1) {}
 
   Reached& at(Index h)
   {
-    std::unique_ptr<Page>& page = pages_[h / kPage];
+    std::unique_ptr<Page>& page = pages_[h / kHalfEdgesOfPage];
     if (!page)
     {
       page = std::make_unique<Page>();
     }
-    return (*page)[h % kPage];
+    return (*page)[h % kHalfEdgesOfPage];
   }
 
 private:
-  static constexpr Index kPage = 256;
-  using Page = std::array<Reached, kPage>;
+  static constexpr Index kHalfEdgesOfPage = 256;
+  using Page = std::array<Reached, kHalfEdgesOfPage>;
 
   std::vector<std::unique_ptr<Page>> pages_;
 };
