@@ -17,8 +17,6 @@ from scipy.spatial import cKDTree
 STEP = 0.1
 #: Edge lengths within which a place or a line has to be.
 PLACE = 0.3
-#: Edge lengths round the old place of a moved vertex in which none of its valence may be left.
-LEFT = 0.5
 #: Edge lengths by which other irregular vertices may have gone, and count as where they were, as the guide has it.
 OTHERS = 2
 #: The same of those at the ends of a connection: their places of the map, which smoothing had left before.
@@ -493,17 +491,19 @@ def irregular_but(quads, place, valence):
 
 
 def judge_move(surface, quads, free, origin, target, valence):
-    """At the new place, not at the old one, and all others of the quads before where they were."""
+    """At the new place, regular at the old one, and all others of the quads before where they were."""
     verdict = judge_valence(surface, quads, target, valence)
     place, face, _ = surface.nearest(origin)
-    left = nearest_of_valence(quads, place[0], surface.normals[face[0]], valence)
+    same_side = numpy.flatnonzero(quads.point_normals @ surface.normals[face[0]] > 0)
+    nearest = same_side[numpy.linalg.norm(quads.points[same_side] - place[0], axis=1).argmin()]
+    left = int(quads.valence[nearest]) + int(quads.boundary[nearest])
     before, after = irregular_but(free, origin, valence), irregular_but(quads, target, valence)
     nothing = numpy.zeros((0, 4))
     valences = sorted(set(before) | set(after))
     before, after = ({v: found.get(v, nothing) for v in valences} for found in (before, after))
     others = changed(before, after, valences) + changed(after, before, valences)
-    return Verdict(verdict.ok and left > LEFT and others == 0, verdict.deviation,
-                   f"at the old place: {left:.2f} edges; {others} others went or came")
+    return Verdict(verdict.ok and left == 4 and others == 0, verdict.deviation,
+                   f"at the old place: valence {left}; {others} others went or came")
 
 
 def judge_connection(surface, quads, course):
