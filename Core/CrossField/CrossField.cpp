@@ -223,8 +223,13 @@ void adopt(const FieldTopology& topology, const PowerFields& fields,
   }
 }
 
-// A field with more irregular vertices has to lessen the expected error of sizes by this factor.
+// A field with more irregular vertices has to lessen the expected error of sizes over the surface by this factor.
 constexpr double kWorthwhileError = 0.9;
+
+double quadsOf(const FieldTopology& topology, const CrossFieldOptions& options)
+{
+  return topology.totalArea / (options.targetEdgeLength * options.targetEdgeLength);
+}
 
 // Where sizes are asked for: irregular vertices with which quads can have them, if turns can be moved so.
 void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
@@ -232,7 +237,8 @@ void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
   Solution& solution)
 {
   const std::vector<int> targets =
-    valencesForSizes(mesh, topology, solution.turns, options.targetValences);
+    valencesForSizes(mesh, topology, solution.turns, options.targetValences,
+      options.localSizes ? worthOfVertexAt(quadsOf(topology, options)) : kWorthOfVertex);
   if (targets.empty())
   {
     return;
@@ -251,7 +257,7 @@ void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
   const TurnRepairResult repair = repairTurns(input);
   if (repair.complete &&
     sizeError(mesh, topology, repair.turns) <
-      kWorthwhileError * sizeError(mesh, topology, solution.turns))
+      (options.localSizes ? 1 : kWorthwhileError) * sizeError(mesh, topology, solution.turns))
   {
     countTryLed(Try::ValencesForSizes);
     applyShift(topology, repair.shift, solution.jump);

@@ -50,6 +50,9 @@ struct CrossFieldOptions
   /// Empty or #H: quarter turns that the sector from a constrained half-edge on must make, met exactly; 0 where free. A
   /// target valence of its vertex comes before it.
   std::vector<int> sectorTurns;
+  /// Whether the sizes of the mesh were asked for at some places, whose quads are few: an irregular vertex more is
+  /// worth what it does for some quads there, see kQuadsOfVertex, and not for a share of the surface.
+  bool localSizes = false;
 };
 
 /// A line of the map along an axis that joins two vertices, or closes on itself, along a way through the faces: the

@@ -30,9 +30,6 @@ constexpr std::size_t kMostConePlaces = 500;
 constexpr int kMostMoves = 100;
 /// Columns of a product that are computed at once.
 constexpr Eigen::Index kBlock = 64;
-/// What an irregular vertex more has to take off the mean square: as much as 20 % too large quads on a fortieth of the
-/// surface.
-constexpr double kWorthOfVertex = 1e-3;
 
 /// The conformal factor as a function of the turns.
 class ConformalFactor
@@ -184,8 +181,8 @@ class TurnPlacement
 {
 public:
   TurnPlacement(const Mesh& mesh, std::vector<ConePlace> places, const ConformalFactor& factor,
-    const Eigen::VectorXd& start)
-    : places_(std::move(places)), gain_(places_.size())
+    const Eigen::VectorXd& start, double worth)
+    : places_(std::move(places)), gain_(places_.size()), worth_(worth)
   {
     const auto size = static_cast<Eigen::Index>(places_.size());
     Eigen::MatrixXd columns(mesh.vertexCount(), size);
@@ -287,7 +284,7 @@ private:
         }
         const double change = product_(i, i) + product_(j, j) - 2 * product_(i, j) +
           2 * (gain_(i) - gain_(j)) +
-          kWorthOfVertex * ((places_[i].turns < 4 ? -1 : 1) + (places_[j].turns > 4 ? -1 : 1));
+          worth_ * ((places_[i].turns < 4 ? -1 : 1) + (places_[j].turns > 4 ? -1 : 1));
         if (change < best)
         {
           best = change;
@@ -310,9 +307,17 @@ private:
   std::vector<std::vector<Index>> neighbours_; ///< places joined by an edge
   Eigen::MatrixXd product_;                    ///< of the factors of single turns
   Eigen::VectorXd gain_;                       ///< products with the factor of all turns
+  double worth_;
 };
 
 } // namespace
+
+double worthOfVertexAt(double quads)
+{
+  constexpr double kFactor = 1.25;
+  const double each = std::log(kFactor) * std::log(kFactor);
+  return std::min(kWorthOfVertex, kQuadsOfVertex * each / std::max(quads, 1.0));
+}
 
 double sizeError(const Mesh& mesh, const FieldTopology& topology, const std::vector<int>& turns)
 {
@@ -321,11 +326,11 @@ double sizeError(const Mesh& mesh, const FieldTopology& topology, const std::vec
 }
 
 std::vector<int> valencesForSizes(const Mesh& mesh, const FieldTopology& topology,
-  const std::vector<int>& turns, const std::vector<int>& asked)
+  const std::vector<int>& turns, const std::vector<int>& asked, double worth)
 {
   const ConformalFactor factor(mesh, topology);
   TurnPlacement placement(
-    mesh, placesOf(mesh, topology, turns, asked), factor, factor.ofTurns(topology, turns));
+    mesh, placesOf(mesh, topology, turns, asked), factor, factor.ofTurns(topology, turns), worth);
   if (!placement.improve())
   {
     return {};

@@ -38,6 +38,28 @@ double edgeLengthOf(const QuadMesh& mesh, Index quad)
       .norm());
 }
 
+/// The least value that is not exceeded by this share of the weight.
+double quantile(std::vector<WeightedDeviation> values, double share)
+{
+  std::sort(values.begin(), values.end(),
+    [](const WeightedDeviation& a, const WeightedDeviation& b) { return a.value < b.value; });
+  double weights = 0;
+  for (const WeightedDeviation& m : values)
+  {
+    weights += m.weight;
+  }
+  double below = 0;
+  for (const WeightedDeviation& m : values)
+  {
+    below += m.weight;
+    if (below >= share * weights)
+    {
+      return m.value;
+    }
+  }
+  return kUnknown;
+}
+
 double angleBetweenLines(const Vector3& a, const Vector3& b)
 {
   return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
@@ -80,26 +102,9 @@ double meanOf(const std::vector<WeightedDeviation>& values)
   return weights > 0 ? sum / weights : kUnknown;
 }
 
-/// The least value that is not exceeded by 95 % of the weight.
 double percentile95(std::vector<WeightedDeviation> values)
 {
-  std::sort(values.begin(), values.end(),
-    [](const WeightedDeviation& a, const WeightedDeviation& b) { return a.value < b.value; });
-  double weights = 0;
-  for (const WeightedDeviation& m : values)
-  {
-    weights += m.weight;
-  }
-  double below = 0;
-  for (const WeightedDeviation& m : values)
-  {
-    below += m.weight;
-    if (below >= 0.95 * weights)
-    {
-      return m.value;
-    }
-  }
-  return kUnknown;
+  return quantile(std::move(values), 0.95);
 }
 
 std::size_t mostPlacesOf(std::size_t guides)
@@ -397,13 +402,14 @@ ConstraintMeasure ConstraintMeasures::sizeOf(const std::vector<std::pair<Index, 
   {
     return word;
   }
-  const double ratio = std::exp(meanOf(signedLogarithms));
-  word.deviation = std::exp(meanOf(logarithms));
+  const double middle = quantile(std::move(signedLogarithms), 0.5);
+  const double ratio = std::exp(middle);
+  word.deviation = std::exp(std::abs(middle));
   word.deviation95 = std::exp(percentile95(std::move(logarithms)));
   word.isMet = word.deviation <= kMetFactor;
   word.reason = word.isMet ? ""
                            : "the sizes of the quads differ from those asked for by a factor of " +
-      shortText(word.deviation) + " on average, at most " + shortText(kMetFactor) +
+      shortText(word.deviation) + " in the median, at most " + shortText(kMetFactor) +
       " counts as met; they are " + shortText(ratio) + " times as long as asked for" +
       (ratio < 1 ? ", as larger sizes give way to smaller ones beside them"
                  : ", as smaller ones need irregular vertices that find no room");

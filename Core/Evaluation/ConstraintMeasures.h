@@ -22,7 +22,7 @@ namespace quadrille
 constexpr double kMetAngle = 5;
 /// Places (valences, moves) and feature lines: edge lengths of the quads there, at most.
 constexpr double kMetDistance = 0.3;
-/// Sizes: the factor on average.
+/// Sizes: the factor of the median; of the array of sizes, on average.
 constexpr double kMetFactor = 1.25;
 /// Edge lengths of the quads beyond which a drawn point lies off the surface, which is told.
 constexpr double kFarOffSurface = 0.5;
@@ -103,8 +103,9 @@ public:
   /// that from the course. outcomes: see AskedConstraints.
   ConstraintMeasure line(
     const PlacedConstraint& constraint, const std::vector<CurveOutcome>& outcomes);
-  /// "factor": by which the edge lengths of quads, the roots of their areas, differ from what was asked: of those with
-  /// their centre within the radius, or else of those round the point next to the place. quads, where given, gets them.
+  /// "factor": by which the median by area of the edge lengths of quads, the roots of their areas, differs from what
+  /// was asked: of those with their centre within the radius, or else of those round the point next to the place.
+  /// quads, where given, gets them.
   ConstraintMeasure size(const Vector3& place, double radius, const AskedSize& asked,
     std::vector<Index>* quads = nullptr);
   /// The same of the quads at places.

@@ -256,10 +256,11 @@ struct SurfaceRequests
   std::vector<StrokeFace> strokeFaces;         ///< ascending by face; see placeStrokes
   std::vector<CurveRequest> curves;            ///< as they were given, in the frame
   bool regularElsewhere = false;               ///< as it was given
-  std::vector<SectorRequest> sectorRequests;   ///< ascending by vertex
-  bool regularOnFeatures = false;              ///< as it was given
-  std::vector<SeamRequest> seams;              ///< as they were given, in the frame
-  std::vector<StraightRequest> straight;       ///< as they were given, in the frame
+  bool localSizes = false; ///< sizes are asked for at places or in regions, see CrossFieldOptions
+  std::vector<SectorRequest> sectorRequests; ///< ascending by vertex
+  bool regularOnFeatures = false;            ///< as it was given
+  std::vector<SeamRequest> seams;            ///< as they were given, in the frame
+  std::vector<StraightRequest> straight;     ///< as they were given, in the frame
 };
 
 } // namespace quadrille

@@ -3,6 +3,7 @@
 #include "Pipeline/Attempt.h"
 #include "Requests/Guides.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Pipeline/Estimate.h"
 #include "Pipeline/Notices.h"
@@ -162,6 +163,24 @@ std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<F
   return made.quads.quads.size();
 }
 
+/// Irregular vertices that were asked for, and those that connections join.
+std::vector<Index> verticesThatStay(const PreparedSurface& surface, const MapAttempt& map)
+{
+  std::vector<Index> vertices = indexVertices(surface);
+  for (const CurveOutcome& curve : map.curves)
+  {
+    for (const Index v : { curve.from, curve.to })
+    {
+      if (curve.met && v != kInvalidIndex)
+      {
+        vertices.push_back(map.coarse.fineVertex[v]);
+      }
+    }
+  }
+  sortUnique(vertices);
+  return vertices;
+}
+
 void extractOnSurface(
   const RunContext& run, const PlannedSurface& surface, const MapAttempt& map, QuadAttempt& made)
 {
@@ -178,7 +197,7 @@ void extractOnSurface(
     [](const SurfaceShape&) { return sizeof(SurfaceShape); });
   ExtractionOptions options;
   options.smoothingSteps = run.options.smoothingSteps;
-  options.fixedVertices = indexVertices(*surface);
+  options.fixedVertices = verticesThatStay(*surface, map);
   options.mapIsCertified = map.certificate.valid();
   options.shape = shape.get();
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");

@@ -63,7 +63,7 @@ ResultKey requestsKey(const SurfaceRequests& requests)
 {
   KeyMaker key;
   addShared(requests, key);
-  key.add(requests.polygonGuides.size(), requests.valenceRequests.size());
+  key.add(requests.polygonGuides.size(), requests.valenceRequests.size(), requests.localSizes);
   for (const StrokeFace& guided : requests.strokeFaces)
   {
     key.add(guided.face, guided.weight, guided.direction);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -27,9 +28,8 @@ constexpr double kTaken = 0.01;
 constexpr double kFineForPaths = 0.2;
 /// Edges that come so near to a size's place, in radii, are made short against the radius.
 constexpr double kShareOfRadius = 0.5;
-/// From there on they may be so long against their distance, over so many s: within these sizes grow to any other.
+/// From there on they may be so long against their distance, as far as sizes grow to those around.
 constexpr double kShareOfDistance = 0.5;
-constexpr double kGrowthReach = 4;
 
 class Insertion
 {
@@ -95,18 +95,14 @@ public:
 
   bool splitConstraint() const { return splitConstraint_; }
 
-  /// Splits edges near a place until they are as short as the size there needs.
-  void refineAround(const SizeRequest& size)
+  /// Splits edges near places until they are as short as the sizes there need.
+  void refineAround(const std::vector<SizeRequest>& sizes)
   {
-    if (!(size.radius > 0))
-    {
-      return;
-    }
     std::vector<Index> open;
     for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
     {
       pollNowAndThen(h);
-      if (isTooLong(h, size))
+      if (isTooLong(h, sizes))
       {
         open.push_back(h);
       }
@@ -115,7 +111,7 @@ public:
     {
       const Index h = open.back();
       open.pop_back();
-      if (!isTooLong(h, size))
+      if (!isTooLong(h, sizes))
       {
         continue;
       }
@@ -139,19 +135,33 @@ public:
     }
   }
 
+  bool isOnBoundary(Index v)
+  {
+    bool on = false;
+    forEachInFan(mesh_, halfEdgeFrom(v),
+      [&](Index h) { on = on || mesh_.isBoundary(h) || mesh_.isBoundary(Mesh::previous(h)); });
+    return on;
+  }
+
 private:
-  bool isTooLong(Index h, const SizeRequest& size) const
+  bool isTooLong(Index h, const std::vector<SizeRequest>& sizes) const
   {
     const Vector3& a = mesh_.position[mesh_.origin[h]];
     const Vector3& b = mesh_.position[mesh_.target(h)];
     const double length = (b - a).norm();
-    if (length <= kShareOfRadius * size.radius)
-    {
-      return false;
-    }
-    const double distance = distanceToSegment(size.place, a, b);
-    return distance < size.radius + kGrowthReach * s_ &&
-      length > std::max(kShareOfRadius * size.radius, kShareOfDistance * distance);
+    return std::any_of(sizes.begin(), sizes.end(),
+      [&](const SizeRequest& size)
+      {
+        const double most = kShareOfRadius * std::max(size.radius, s_);
+        if (length <= most)
+        {
+          return false;
+        }
+        const double distance = distanceToSegment(size.place, a, b);
+        const double reach = std::abs(size.factor - 1) / kSizeGrowth * s_;
+        return distance < size.radius + reach &&
+          length > std::max(most, kShareOfDistance * distance);
+      });
   }
 
   /// The end of the way from an edge to the longest one of the faces beside it, and so on, as in longest-edge bisection
@@ -389,16 +399,17 @@ private:
   std::unordered_map<Index, std::vector<Index>> partsOf_;
 };
 
-bool isOnBoundary(const Mesh& mesh, Index v)
+/// The size of a vertex outside of all radii where nothing else is asked for: larger ones decrease from there on, as
+/// smaller ones grow.
+double sizeBeyond(const std::vector<SizeRequest>& sizes, const Vector3& p, double s)
 {
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  double size = 1;
+  for (const SizeRequest& asked : sizes)
   {
-    if (mesh.isBoundary(h) && (mesh.origin[h] == v || mesh.target(h) == v))
-    {
-      return true;
-    }
+    const double beyond = (p - asked.place).norm() - asked.radius;
+    size = std::max(size, asked.factor - kSizeGrowth * beyond / s);
   }
-  return false;
+  return size;
 }
 
 } // namespace
@@ -461,24 +472,28 @@ void insertSizes(PreparedSurface& surface, const std::vector<SizeRequest>& sizes
     places.push_back(size.place);
   }
   const std::vector<Index> centres = insertion.vertices(places);
-  for (const SizeRequest& size : sizes)
-  {
-    insertion.refineAround(size);
-  }
+  insertion.refineAround(sizes);
   orders.resize(mesh.vertexCount(), 0);
-  for (std::size_t i = 0; i < sizes.size(); ++i)
+  float* const sizing = mesh.sizing.edit();
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
-    const SizeRequest& size = sizes[i];
-    for (Index v = 0; v < mesh.vertexCount(); ++v)
+    pollNowAndThen(v);
+    bool isFree = orders[v] == 0 && sizing[v] == 1;
+    for (std::size_t i = 0; i < sizes.size(); ++i)
     {
-      pollNowAndThen(v);
+      const SizeRequest& size = sizes[i];
       const bool isNear = v == centres[i] ||
         (mesh.position[v] - size.place).squaredNorm() <= size.radius * size.radius;
+      isFree = isFree && !isNear;
       if (isNear && orders[v] <= size.order)
       {
-        mesh.sizing.edit()[v] = static_cast<float>(size.factor);
+        sizing[v] = static_cast<float>(size.factor);
         orders[v] = size.order;
       }
+    }
+    if (isFree)
+    {
+      sizing[v] = static_cast<float>(sizeBeyond(sizes, mesh.position[v], options.edgeLength));
     }
   }
 }
@@ -515,7 +530,7 @@ InsertedValences insertValences(PreparedSurface& surface, const std::vector<Vale
       leaveOut("valence " + std::to_string(found->second.valence) +
         " is asked for there already; give both the same, or take one away");
     }
-    else if (valences[i].valence < kLeastOnBoundary && isOnBoundary(surface.mesh, v))
+    else if (valences[i].valence < kLeastOnBoundary && insertion.isOnBoundary(v))
     {
       leaveOut("the place is on the boundary, where the least is 3, a corner with one quad; ask "
                "for 3 or more, or move the place inside");

@@ -6,9 +6,11 @@
 #include "Mesh/Distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <queue>
-#include <unordered_map>
 #include <utility>
 
 namespace quadrille
@@ -44,13 +46,45 @@ double shareNearestToSegment(const Vector3& a, const Vector3& b, const Vector3& 
   return share;
 }
 
+/// How half-edges were reached, in pages that are made where the search comes to: it mostly stays near its ends, but
+/// may have to go all over a surface of millions of faces, which lie along a space-filling curve.
+class ReachedHalfEdges
+{
+public:
+  struct Reached
+  {
+    double cost = std::numeric_limits<double>::infinity();
+    Index before = kInvalidIndex;
+    bool isDone = false;
+  };
+
+  explicit ReachedHalfEdges(Index halfEdges) : pages_(halfEdges / kHalfEdgesOfPage + 1) {}
+
+  Reached& at(Index h)
+  {
+    std::unique_ptr<Page>& page = pages_[h / kHalfEdgesOfPage];
+    if (!page)
+    {
+      page = std::make_unique<Page>();
+    }
+    return (*page)[h % kHalfEdgesOfPage];
+  }
+
+private:
+  static constexpr Index kHalfEdgesOfPage = 256;
+  using Page = std::array<Reached, kHalfEdgesOfPage>;
+
+  std::vector<std::unique_ptr<Page>> pages_;
+};
+
 /// The half-edges over which the faces of a path are left.
 class FaceStripSearch
 {
 public:
   FaceStripSearch(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to)
     : mesh_(mesh), from_(from), to_(to),
-      scale_(kDetour / std::max((to.point - from.point).norm(), 1e-300))
+      scale_(kDetour / std::max((to.point - from.point).norm(), 1e-300)),
+      reached_(mesh.halfEdgeCount())
   {
   }
 
@@ -65,7 +99,7 @@ public:
     {
       const auto [whole, h] = front_.top();
       front_.pop();
-      const Reached& here = reached_.at(h);
+      ReachedHalfEdges::Reached& here = reached_.at(h);
       if (here.isDone)
       {
         continue;
@@ -74,23 +108,22 @@ public:
       {
         return backFrom(h);
       }
-      reached_.at(h).isDone = true;
-      const Vector3 point = here.point;
-      leave(Mesh::face(mesh_.twin[h]), h, point, here.cost);
+      here.isDone = true;
+      leave(Mesh::face(mesh_.twin[h]), h, crossing(h), here.cost);
     }
     return std::nullopt;
   }
 
 private:
-  struct Reached
-  {
-    double cost = 0;
-    Vector3 point = Vector3::Zero();
-    Index before = kInvalidIndex;
-    bool isDone = false;
-  };
   using Entry = std::pair<double, Index>;
 
+  /// Of an edge the point that is nearest to the straight segment.
+  Vector3 crossing(Index h) const
+  {
+    const Vector3& a = mesh_.position[mesh_.origin[h]];
+    const Vector3& b = mesh_.position[mesh_.target(h)];
+    return a + shareNearestToSegment(a, b, from_.point, to_.point) * (b - a);
+  }
   double away(const Vector3& p) const { return distanceToSegment(p, from_.point, to_.point); }
 
   /// From a point of the face over its other edges.
@@ -103,23 +136,26 @@ private:
       {
         continue;
       }
-      const Vector3& a = mesh_.position[mesh_.origin[h]];
-      const Vector3& b = mesh_.position[mesh_.target(h)];
-      const Vector3 next = a + shareNearestToSegment(a, b, from_.point, to_.point) * (b - a);
-      const double there =
-        cost + (next - point).norm() * (1 + 0.5 * scale_ * (awayHere + away(next)));
-      const auto [found, isNew] = reached_.try_emplace(h);
-      if (isNew || (!found->second.isDone && there < found->second.cost))
+      ReachedHalfEdges::Reached& reached = reached_.at(h);
+      if (reached.isDone)
       {
-        found->second = { there, next, over, false };
+        continue;
+      }
+      const Vector3 next = crossing(h);
+      const double awayThere = away(next);
+      const double there =
+        cost + (next - point).norm() * (1 + 0.5 * scale_ * (awayHere + awayThere));
+      if (there < reached.cost)
+      {
+        reached.cost = there;
+        reached.before = over;
         const double rest = (next - to_.point).norm();
-        const double awayThere = away(next);
         front_.push({ there + rest + 0.5 * scale_ * awayThere * awayThere, h });
       }
     }
   }
 
-  std::vector<Index> backFrom(Index h) const
+  std::vector<Index> backFrom(Index h)
   {
     std::vector<Index> strip;
     for (; h != kInvalidIndex; h = reached_.at(h).before)
@@ -134,7 +170,7 @@ private:
   const MeshPlace& from_;
   const MeshPlace& to_;
   double scale_;
-  std::unordered_map<Index, Reached> reached_; ///< by half-edge; only looked up
+  ReachedHalfEdges reached_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front_;
 };
 

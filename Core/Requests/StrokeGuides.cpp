@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/StrokeGuides.h"
 
+#include "Mesh/BoxTree.h"
 #include "Mesh/Distance.h"
 #include "Requests/MeshPaths.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace quadrille
 {
@@ -60,22 +61,41 @@ std::vector<PathParts> partsOf(
   return result;
 }
 
-/// The direction of the nearest part of a path, where it is within the radius; else zero.
-Vector3 directionNear(const PathParts& parts, const Vector3& p, double radius)
+/// Finds directions of the parts of a path.
+class NearestPart
 {
-  double least = std::numeric_limits<double>::infinity();
-  Vector3 direction = Vector3::Zero();
-  for (const PathPart& part : parts)
+public:
+  explicit NearestPart(PathParts parts) : parts_(std::move(parts))
   {
-    const double distance = distanceToSegment(p, part.from, part.to);
-    if (distance < least && part.from != part.to)
+    parts_.erase(std::remove_if(parts_.begin(), parts_.end(),
+                   [](const PathPart& part) { return part.from == part.to; }),
+      parts_.end());
+    std::vector<BoxTree::Box> boxes;
+    boxes.reserve(parts_.size());
+    for (const PathPart& part : parts_)
     {
-      least = distance;
-      direction = (part.to - part.from).stableNormalized();
+      boxes.push_back({ part.from.cwiseMin(part.to), part.from.cwiseMax(part.to) });
     }
+    tree_ = BoxTree(boxes, 1);
   }
-  return least <= radius ? direction : Vector3(Vector3::Zero());
-}
+
+  /// Of the nearest part, where that is within the radius; else zero.
+  Vector3 direction(const Vector3& p, double radius) const
+  {
+    const auto distance = [&](Index i)
+    { return distanceToSegment(p, parts_[i].from, parts_[i].to); };
+    const Index nearest = tree_.nearest(p, [&](Index i) { return distance(i) * distance(i); });
+    if (nearest == kInvalidIndex || distance(nearest) > radius)
+    {
+      return Vector3::Zero();
+    }
+    return (parts_[nearest].to - parts_[nearest].from).stableNormalized();
+  }
+
+private:
+  PathParts parts_;
+  BoxTree tree_;
+};
 
 /// Directions of faces under one stroke and round it.
 std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, double radius)
@@ -94,6 +114,7 @@ std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, 
     seen.insert(face);
     front.insert(face);
   }
+  const NearestPart nearest(radius > 0 ? parts : PathParts());
   while (radius > 0 && !front.empty())
   {
     const Index face = *front.begin();
@@ -105,7 +126,7 @@ std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, 
       {
         continue;
       }
-      const Vector3 direction = directionNear(parts, mesh.middleOfFace(other), radius);
+      const Vector3 direction = nearest.direction(mesh.middleOfFace(other), radius);
       if (!direction.isZero(0))
       {
         directions[other] = direction;

@@ -527,7 +527,9 @@ class RandomSession:
             word = words.get(constraint["id"])
             if word is None:
                 continue
-            if word["met"] == bool(word["reason"]):
+            # Of one that is met a reason may tell that a point lies off the surface.
+            needs = not word["met"] or "off the surface" in word["reason"]
+            if needs != bool(word["reason"]):
                 self.problem(f"{word['text']} is met {word['met']}, reason {word['reason']!r}")
             if not all(isinstance(x, float) and math.isfinite(x) for x in word["place"]):
                 self.problem(f"{word['text']} has no place: {word['place']}")

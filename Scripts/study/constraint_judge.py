@@ -17,11 +17,10 @@ from scipy.spatial import cKDTree
 STEP = 0.1
 #: Edge lengths within which a place or a line has to be.
 PLACE = 0.3
-#: Edge lengths round the old place of a moved vertex in which none of its valence may be left.
-LEFT = 0.5
-#: Edge lengths by which other irregular vertices, and those at the ends of a connection, may have gone, and count as
-#: where they were.
-OTHERS = 1
+#: Edge lengths by which other irregular vertices may have gone, and count as where they were, as the guide has it.
+OTHERS = 2
+#: The same of those at the ends of a connection: their places of the map, which smoothing had left before.
+ENDS = 1
 #: Edge lengths from a closed course within which a closed chain counts, as the guide has it.
 REACH = 6
 #: Closed chains longer than so many times the course go round more than once.
@@ -30,8 +29,6 @@ LONGEST_LOOP = 1.9
 ALONG = 25
 #: Degrees, the mean angle between a stroke and the quads.
 STROKE = 5
-#: Edge lengths round a stroke of radius 0 in which quads count.
-STROKE_WIDTH = 0.75
 #: Factor by which sizes may be off.
 SIZE = 1.25
 #: Sharp edges that hang together and are shorter in all than so many edge lengths are no feature.
@@ -333,6 +330,8 @@ class Quads:
         self.twin = numpy.where(key[order[at]] == twin_key, order[at], -1)
         single = (self.twin < 0) | (self.start < self.end)
         self.edges = numpy.stack((self.start[single], self.end[single]), axis=1)
+        #: Of all edges, the unit of closed chains.
+        self.mean_edge = float(numpy.linalg.norm(points[self.start] - points[self.end], axis=1).mean())
         self.valence = numpy.bincount(self.edges.ravel(), minlength=count)
         self.boundary = numpy.zeros(count, bool)
         self.boundary[self.start[self.twin < 0]] = self.boundary[self.end[self.twin < 0]] = True
@@ -346,6 +345,39 @@ class Quads:
         """The mean size of the nine quads nearest to a place, the mean of that at several."""
         near = self.tree.query(numpy.atleast_2d(places), k=min(9, len(self.quads)))[1]
         return float(self.sizes[near].mean())
+
+    def below(self, places, normals):
+        """For each place the quad that is nearest to it, of those that face the same way."""
+        near = self.tree.query(places, k=min(9, len(self.quads)))[1].reshape(len(places), -1)
+        corners = self.points[self.quads[near.ravel()]]
+        repeated = numpy.repeat(places, near.shape[1], axis=0)
+        distance = numpy.minimum(*(in_triangles(repeated, *(corners[:, i] for i in half))[1]
+                                   for half in ((0, 1, 2), (0, 2, 3)))).reshape(near.shape)
+        distance[dots(self.normals[near], normals[:, None]) <= 0] += self.sizes.max()
+        return near[numpy.arange(len(places)), distance.argmin(axis=1)]
+
+    def places_near(self, course, radius):
+        """Places in quads, sixteen in each, that are within a radius of a course: quads, places and areas."""
+        close = numpy.flatnonzero(course.tree.query(self.centres)[0] <= radius + 2 * self.sizes)
+        a, b, c, d = (self.points[self.quads[close, i]] for i in range(4))
+        places, steps = [], (numpy.arange(4) + 0.5) / 4
+        for u in steps:
+            for v in steps:
+                places.append((1 - u) * ((1 - v) * a + v * d) + u * ((1 - v) * b + v * c))
+        quads, places = numpy.tile(close, len(places)), numpy.concatenate(places)
+        within = course.tree.query(places)[0] <= radius
+        return quads[within], places[within], self.sizes[quads[within]] ** 2
+
+    def families_at(self, quads, places):
+        """The directions of both families of edges at places in quads: between opposite edges, by how near they are."""
+        corners = self.points[self.quads[quads]]
+        families = []
+        for i in (0, 1):
+            one, other = (corners[:, i], corners[:, i + 1]), (corners[:, (i + 3) % 4], corners[:, (i + 2) % 4])
+            far = [numpy.linalg.norm(on_segments(places, *side) - places, axis=1)[:, None] for side in (one, other)]
+            share = far[0] / numpy.maximum(far[0] + far[1], 1e-300)
+            families.append(unit((1 - share) * (one[1] - one[0]) + share * (other[1] - other[0])))
+        return numpy.stack(families, axis=1)
 
     def irregular(self, valence=None):
         """Inside of the surface."""
@@ -459,21 +491,23 @@ def irregular_but(quads, place, valence):
 
 
 def judge_move(surface, quads, free, origin, target, valence):
-    """At the new place, not at the old one, and all others of the quads before where they were."""
+    """At the new place, regular at the old one, and all others of the quads before where they were."""
     verdict = judge_valence(surface, quads, target, valence)
     place, face, _ = surface.nearest(origin)
-    left = nearest_of_valence(quads, place[0], surface.normals[face[0]], valence)
+    same_side = numpy.flatnonzero(quads.point_normals @ surface.normals[face[0]] > 0)
+    nearest = same_side[numpy.linalg.norm(quads.points[same_side] - place[0], axis=1).argmin()]
+    left = int(quads.valence[nearest]) + int(quads.boundary[nearest])
     before, after = irregular_but(free, origin, valence), irregular_but(quads, target, valence)
     nothing = numpy.zeros((0, 4))
     valences = sorted(set(before) | set(after))
     before, after = ({v: found.get(v, nothing) for v in valences} for found in (before, after))
     others = changed(before, after, valences) + changed(after, before, valences)
-    return Verdict(verdict.ok and left > LEFT and others == 0, verdict.deviation,
-                   f"at the old place: {left:.2f} edges; {others} others went or came")
+    return Verdict(verdict.ok and left == 4 and others == 0, verdict.deviation,
+                   f"at the old place: valence {left}; {others} others went or came")
 
 
 def judge_connection(surface, quads, course):
-    """A straight chain between vertices that are irregular, on a feature or on the boundary, each within OTHERS of its
+    """A straight chain between vertices that are irregular, on a feature or on the boundary, each within ENDS of its
     end; of several the one that stays nearest to the course. The deviation is its farthest distance from there."""
     start, end = course.line[0], course.line[-1]
     holds = quads.boundary | (quads.valence != 4)
@@ -490,16 +524,16 @@ def judge_connection(surface, quads, course):
             for k in [k for k in range(1, len(chain)) if holds[chain[k]] and off[1][chain[k]] <= 3]:
                 far = float(course.distance(quads.along(chain[:k + 1])).max()) / numpy.mean(edge)
                 ends = max(off[0][point], off[1][chain[k]])
-                if far <= REACH and (best is None or (ends > OTHERS, far) < (best[0] > OTHERS, best[1])):
+                if far <= REACH and (best is None or (ends > ENDS, far) < (best[0] > ENDS, best[1])):
                     best = ends, far
     if best is None:
         return Verdict(False, math.inf, "no straight chain between vertices within 3 edges of both ends")
-    return Verdict(best[0] <= OTHERS, best[1], f"ends off by {best[0]:.2f} edges")
+    return Verdict(best[0] <= ENDS, best[1], f"ends off by {best[0]:.2f} edges")
 
 
 def judge_cycle(quads, course):
     """A closed straight chain within REACH of the course, once round; the deviation is its farthest distance."""
-    edge = quads.length_at(course.line)
+    edge = quads.mean_edge
     inside = course.distance(quads.points) <= REACH * edge
     starts = numpy.flatnonzero(numpy.linalg.norm(quads.points - course.line[0], axis=1) <= REACH * edge)
     best = math.inf
@@ -542,40 +576,47 @@ def judge_feature(quads, course):
 
 
 def judge_stroke(surface, quads, course, radius, clear=0):
-    """Degrees between the stroke and the nearer family of edges, the mean over quads near it that are at least so many
-    edge lengths clear of features."""
-    edge = quads.length_at(course.places)
-    distance, near = course.tree.query(quads.centres)
-    normal = surface.normals[surface.nearest(course.places)[1]]
-    counts = (distance <= max(radius, STROKE_WIDTH * edge)) & (dots(quads.normals, normal[near]) > 0.5)
-    counts[counts] = surface.to_feature(quads.centres[counts]) >= clear * edge
-    if not counts.any():
+    """Degrees between the stroke and the nearer family of edges, the mean over its length of the quads below it, or
+    over the area within its radius; of places that are at least so many edge lengths clear of features."""
+    normals = surface.normals[surface.nearest(course.places)[1]]
+    if radius > 0:
+        which, places, weights = quads.places_near(course, radius)
+        near = course.tree.query(places)[1]
+        faces = dots(quads.normals[which], normals[near]) > 0.5
+        which, places, weights, near = which[faces], places[faces], weights[faces], near[faces]
+    else:
+        which, places = quads.below(course.places, normals), course.places
+        near, weights = numpy.arange(len(places)), numpy.ones(len(places))
+    counts = surface.to_feature(places) >= clear * quads.length_at(course.places)
+    which, places, weights, near = which[counts], places[counts], weights[counts], near[counts]
+    if not len(which):
         return Verdict(False, math.inf, "no quads there")
-    along = course.directions[near[counts]]
-    along = unit(along - dots(along, quads.normals[counts])[:, None] * quads.normals[counts])
-    cosine = numpy.abs(dots(quads.families[counts], along[:, None])).max(axis=1)
+    along = course.directions[near]
+    along = unit(along - dots(along, quads.normals[which])[:, None] * quads.normals[which])
+    cosine = numpy.abs(dots(quads.families_at(which, places), along[:, None])).max(axis=1)
     angles = numpy.degrees(numpy.arccos(numpy.minimum(1, cosine)))
-    mean = float(angles.mean())
-    features = surface.to_feature(course.places).min() / edge
-    return Verdict(mean <= STROKE, mean, f"95 % {numpy.percentile(angles, 95):.1f}, {len(angles)} quads, features "
-                   f"{features:.1f} edges away")
+    mean = float((weights * angles).sum() / weights.sum())
+    features = surface.to_feature(course.places).min() / quads.length_at(course.places)
+    return Verdict(mean <= STROKE, mean, f"95 % {numpy.percentile(angles, 95):.1f}, {len(set(which.tolist()))} quads, "
+                   f"features {features:.1f} edges away")
 
 
-def judge_size(surface, quads, free, place, radius, factor):
-    """The median size in 0.8 of the radius over that of quads farther than three radii; where these are less than a
-    fifth, over what quads outside would have by the number of quads and the area."""
-    distance = numpy.linalg.norm(quads.centres - place, axis=1)
-    inside, outside = distance <= 0.8 * radius, distance > 3 * radius
+def weighted_median(values, weights):
+    order = numpy.argsort(values)
+    below = numpy.cumsum(weights[order])
+    return float(values[order[numpy.searchsorted(below, 0.5 * below[-1])]])
+
+
+def judge_size(surface, quads, place, radius, factor, growth):
+    """The median by area of the sizes within the radius, over the size that quads have by their number and the area
+    where nothing is asked for: beyond the radius sizes pass to those, by `growth` over an edge length."""
+    inside = numpy.linalg.norm(quads.centres - place, axis=1) <= radius
     if not inside.any():
         return Verdict(False, math.inf, "no quads there")
-    if outside.sum() >= 0.2 * len(quads.quads):
-        rest, way = float(numpy.median(quads.sizes[outside])), "against those outside"
-    else:
-        within = numpy.linalg.norm(surface._middles - place, axis=1) <= radius
-        area, area_within = surface.areas.sum(), surface.areas[within].sum()
-        implied = math.sqrt((area - area_within + area_within / factor ** 2) / len(quads.quads))
-        rest = float(numpy.median(free.sizes)) * implied / math.sqrt(area / len(free.quads))
-        way = "against the number of quads"
-    ratio = float(numpy.median(quads.sizes[inside])) / rest / factor
+    beyond = numpy.maximum(numpy.linalg.norm(surface._middles - place, axis=1) - radius, 0) / surface.edge
+    sizes = (numpy.maximum(factor - growth * beyond, 1) if factor > 1 else
+             numpy.minimum(factor + growth * beyond, 1))
+    rest = math.sqrt((surface.areas / sizes ** 2).sum() / len(quads.quads))
+    ratio = weighted_median(quads.sizes[inside], quads.sizes[inside] ** 2) / rest / factor
     off = max(ratio, 1 / ratio) - 1
-    return Verdict(off <= SIZE - 1, off, f"{ratio * factor:.2f} for {factor:.2f} {way}, {int(inside.sum())} quads")
+    return Verdict(off <= SIZE - 1, off, f"{ratio * factor:.2f} for {factor:.2f}, {int(inside.sum())} quads")

@@ -16,8 +16,10 @@ had wrong on a cube: a row each, with its notices. Each model runs in a process 
 the others go on.
 
 A place is feasible unless the session does not give it and the judge sees why not: it lies on a feature or boundary,
-the way there crosses a feature, what lies between features has room for less than nine quads, or a size has no room to
-grow. Random sessions of all kinds of edits are made by `check/random_sessions.py MODEL... --sessions N --inside`.
+the way there crosses a feature, or what lies between features has room for less than nine quads. A
+stroke has room where its features are two edge lengths away, and quads turn from them to it by at most six degrees an
+edge length. Random sessions of all kinds of edits are made by `check/random_sessions.py MODEL... --sessions N
+--inside`.
 """
 import argparse
 import collections
@@ -50,9 +52,12 @@ ON_FEATURE = 0.3
 ROOM = 9
 #: Edge lengths from features within which they do not leave a stroke room.
 STROKE_ROOM = 2
+#: Degrees an edge length by which quads turn from features to a stroke where these leave it room: a conformal map that
+#: turns so has sizes that differ by a tenth from one quad to the next.
+BEND = 6
 #: Edge lengths that a drawn line keeps from features, where it does not cross them.
 CLEAR = 0.75
-#: Edge lengths from the next neighbour to which sizes grow by a quarter.
+#: By how much sizes grow over an edge length beyond the radius that they are asked for in, as the guide has it.
 GROWTH = 0.25
 COLUMNS = ("model", "kind", "number", "asked", "word", "met", "told", "unit", "reason", "ok", "deviation", "more",
            "excuse", "seconds", "share", "notices")
@@ -361,6 +366,9 @@ class Model:
 
     def ask_stroke(self, points, course, room, radius, clear=0):
         points = numpy.array(points)
+        turn = judge.judge_stroke(self.surface, self.free, course, radius).deviation
+        off = self.surface.to_feature(course.places).min() / self.free.length_at(course.places)
+        room = room and turn <= BEND * off
         return Ask("stroke" if room else "stroke near features",
                    f"radius {radius:.4g} {' '.join(map(text_of, points))}",
                    lambda s: s.add_guide(points, radius=radius),
@@ -374,12 +382,9 @@ class Model:
         return self.ask_size(place, factor, self.random.uniform(3, 6) * self.free.length_at(place))
 
     def ask_size(self, place, factor, radius):
-        # Half of the disc of 0.8 of the radius is farther out than 0.57 of it; larger sizes grow from outside.
-        grown = 1 + GROWTH * (1 - 0.8 * math.sqrt(0.5)) * radius / self.free.length_at(place)
-        excuse = "no room for the size to grow" if grown * judge.SIZE < factor else ""
         return Ask("size", f"{factor:.3g} within {radius:.4g} of {text_of(place)}",
                    lambda s: s.set_size(place, factor, radius=radius),
-                   lambda quads: judge.judge_size(self.surface, quads, self.free, place, radius, factor), excuse)
+                   lambda quads: judge.judge_size(self.surface, quads, place, radius, factor, GROWTH))
 
     # Runs.
 
@@ -398,7 +403,8 @@ class Model:
             word = next(w for w in report["constraints"] if w["id"] == which)
             row.update(word="met" if word["met"] else "not met", met=word["met"], told=word["deviation"],
                        unit=word["unit"], reason=word["reason"], notices=" | ".join(report["notices"]))
-            verdict = ask.judge(judge.Quads(*self.session.quads))
+            quads = self.session.quads
+            verdict = judge.Verdict(False, math.inf, "no quads") if quads is None else ask.judge(judge.Quads(*quads))
             row.update(ok=bool(verdict.ok), deviation=verdict.deviation, more=verdict.more)
         except (quadrille.InvalidInput, quadrille.RemeshError) as error:
             row.update(word="refused", reason=str(error))

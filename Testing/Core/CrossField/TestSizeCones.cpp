@@ -90,6 +90,22 @@ TEST(SizeCones, IrregularVerticesAreAddedInPairsAndStayApart)
     0.5 * sizeError(mesh, topology, before));
 }
 
+TEST(SizeCones, ASmallPlaceIsWorthIrregularVerticesByItsQuads)
+{
+  const auto sizeAt = [](const Vector3& p)
+  { return std::min(1.0, 0.5 + 0.25 * std::max((p - Vector3(30, 30, 0)).norm() - 4, 0.0)); };
+  const Mesh mesh = withSizes(gridPlane(60, 60), sizeAt);
+  const FieldTopology topology = buildFieldTopology(mesh);
+  const std::vector<int> before = turnsWith(topology, {});
+  const auto irregularOf = [](const std::vector<int>& targets)
+  { return std::count_if(targets.begin(), targets.end(), [](int t) { return t != 0 && t != 4; }); };
+  const auto byShare = irregularOf(valencesForSizes(mesh, topology, before, {}));
+  const auto byQuads =
+    irregularOf(valencesForSizes(mesh, topology, before, {}, worthOfVertexAt(3600)));
+  EXPECT_GT(byQuads, byShare);
+  EXPECT_EQ(worthOfVertexAt(1), kWorthOfVertex);
+}
+
 TEST(SizeCones, TargetsOfTheUserStay)
 {
   const Mesh mesh =

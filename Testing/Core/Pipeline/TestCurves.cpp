@@ -104,6 +104,12 @@ TEST(Curves, AConnectionIsAStraightChainOfEdges)
     EXPECT_EQ(outcome.met, !chain.empty()) << outcome.why;
     EXPECT_EQ(outcome.met, outcome.why.empty());
     met += outcome.met ? 1 : 0;
+    for (const Vector3& end : { outcome.start, outcome.end })
+    {
+      // Smoothing leaves what was joined where it is.
+      const Vector3& point = result.quads.points[chains.nearestPoint(end)];
+      EXPECT_TRUE(!outcome.met || (point - end).norm() < 1e-6) << (point - end).norm();
+    }
   }
   EXPECT_GE(met, pairs.size() - 1);
 }

@@ -333,6 +333,32 @@ TEST(InsertPlaces, SizesHoldWithinTheirRadius)
   EXPECT_LT(sizedArea(surface.mesh), 6 + 3 * inside / 0.16);
 }
 
+TEST(InsertPlaces, LargerSizesHoldWithinTheirRadiusAndDecreaseBeyond)
+{
+  constexpr double kEdgeLength = 0.05;
+  PreparedSurface surface = prepared(unitCube(1));
+  const SizeRequest size{ { 0.5, 0.5, 1 }, 0.2, 1.6, 1 };
+  const SizeRequest smaller{ { 0.5, 0.5, 0 }, 0.1, 0.5, 2 };
+  insertSizes(surface, { size, smaller }, {}, { kEdgeLength, 1 });
+  // 0.6 to lose, a quarter an edge length.
+  constexpr double kBeyond = 0.6 / 0.25 * kEdgeLength;
+  std::size_t between = 0;
+  for (Index v = 0; v < surface.mesh.vertexCount(); ++v)
+  {
+    const Vector3& p = surface.mesh.position[v];
+    const double beyond = (p - size.place).norm() - size.radius;
+    const float asked = surface.mesh.sizing[v];
+    EXPECT_TRUE(beyond > 0 || asked == 1.6F);
+    EXPECT_TRUE(beyond < kBeyond || asked <= 1);
+    EXPECT_TRUE((p - smaller.place).norm() > smaller.radius || asked == 0.5F);
+    between += asked > 1 && asked < 1.6F ? 1 : 0;
+  }
+  EXPECT_GE(between, 4U);
+  const SizingReport limited = limitSizeGrowth(surface.mesh, kEdgeLength);
+  EXPECT_LT(limited.most, 1.6); // about the smaller one alone
+  EXPECT_LT((surface.mesh.position[limited.vertex] - smaller.place).norm(), 0.6);
+}
+
 TEST(InsertPlaces, TheSizeOfTheHighestOrderCounts)
 {
   PreparedSurface surface = prepared(unitCube(8));
