@@ -10,6 +10,8 @@
 #include "Convert/PolyData.h"
 #include "Convert/Quads.h"
 #include "Extraction/Extraction.h"
+#include "Mesh/FlatSources.h"
+#include "Mesh/NearestTriangle.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/StageRecords.h"
 #include "Stages/MappedInput.h"
@@ -25,7 +27,10 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 vtkStandardNewMacro(vtkQuadExtraction);
 
@@ -46,6 +51,41 @@ PointOrigin carrierPoint(vtkPolyData* data, Index face, const Weights& weights)
   quadrille::getCorners(data->GetPolys(), face, count, ids, copy);
   return { { ids[0], ids[1], ids[2] }, weights };
 }
+
+/// The user's triangles under faces of a mapped surface that come from several.
+struct FlatTriangles
+{
+  vtkIdTypeArray* cells = nullptr;
+  vtkIdTypeArray* points = nullptr;
+  std::unique_ptr<quadrille::NearestTriangle> tree;
+
+  explicit FlatTriangles(vtkPolyData* data)
+  {
+    vtkFieldData* arrays = data->GetFieldData();
+    cells = vtkIdTypeArray::SafeDownCast(arrays->GetArray(quadrille::arrays::kFlatCellId));
+    points = vtkIdTypeArray::SafeDownCast(arrays->GetArray(quadrille::arrays::kFlatPointIds));
+    vtkDataArray* places = arrays->GetArray(quadrille::arrays::kFlatPoints);
+    if (!cells || !points || !places || points->GetNumberOfComponents() != 3 ||
+      places->GetNumberOfComponents() != 9 ||
+      points->GetNumberOfTuples() != cells->GetNumberOfTuples() ||
+      places->GetNumberOfTuples() != cells->GetNumberOfTuples() || cells->GetNumberOfTuples() == 0)
+    {
+      return;
+    }
+    quadrille::TriangleList triangles;
+    for (vtkIdType t = 0; t < cells->GetNumberOfTuples(); ++t)
+    {
+      const auto first = static_cast<Index>(triangles.points.size());
+      for (int k = 0; k < 9; k += 3)
+      {
+        triangles.points.emplace_back(places->GetComponent(t, k), places->GetComponent(t, k + 1),
+          places->GetComponent(t, k + 2));
+      }
+      triangles.corners.push_back({ first, first + 1, first + 2 });
+    }
+    tree = std::make_unique<quadrille::NearestTriangle>(std::move(triangles));
+  }
+};
 
 /// Where a mapped surface came from, as far as it tells.
 struct Ancestry
@@ -88,6 +128,70 @@ struct Ancestry
     return origin;
   }
 };
+
+/// Points and centres of quads in faces that come from several of the user's triangles, which weights below zero tell,
+/// are looked up in these; points are put onto them.
+void placeOnFlatTriangles(
+  vtkPolyData* data, quadrille::QuadMesh& quads, quadrille::QuadSource& source)
+{
+  const Ancestry ancestry(data);
+  const FlatTriangles flat(data);
+  if (!ancestry.cells || !ancestry.weights || !flat.tree)
+  {
+    return;
+  }
+  const auto isOver = [&](Index face)
+  {
+    double corner[9];
+    ancestry.weights->GetTuple(face, corner);
+    return std::any_of(
+      corner, corner + 9, [](double weight) { return weight < -quadrille::kOnTriangleEdge; });
+  };
+  const auto placeIn = [&](Index face, const Weights& weights)
+  {
+    vtkNew<vtkIdList> copy;
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    quadrille::getCorners(data->GetPolys(), face, count, ids, copy);
+    quadrille::Vector3 place = quadrille::Vector3::Zero();
+    for (int k = 0; k < 3; ++k)
+    {
+      place += weights[static_cast<std::size_t>(k)] * quadrille::Vector3(data->GetPoint(ids[k]));
+    }
+    return flat.tree->at(place);
+  };
+  for (std::size_t p = 0; p < quads.points.size(); ++p)
+  {
+    const Index face = quads.sourceFace[p];
+    source.sourceOrigins.push_back(ancestry.point(face, quads.sourceWeights[p]));
+    source.pointCells.push_back(ancestry.cells->GetValue(face));
+    if (!isOver(face))
+    {
+      continue;
+    }
+    const auto at = placeIn(face, quads.sourceWeights[p]);
+    PointOrigin& origin = source.sourceOrigins.back();
+    flat.points->GetTypedTuple(at->triangle, origin.ids.data());
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      origin.weights[k] = at->weights[k] < quadrille::kOnTriangleEdge ? 0 : at->weights[k];
+      sum += origin.weights[k];
+    }
+    quadrille::Vector3 place = quadrille::Vector3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      origin.weights[k] /= sum;
+      const quadrille::TriangleList& list = flat.tree->triangles();
+      place += origin.weights[k] * list.points[list.corners[at->triangle][k]];
+    }
+    source.pointCells.back() = flat.cells->GetValue(at->triangle);
+    if ((place - quads.points[p]).norm() <= 4 * quadrille::kFlatHeight * data->GetLength())
+    {
+      quads.points[p] = place;
+    }
+  }
+}
 
 quadrille::QuadSource sourceOfMapped(vtkPolyData* data, const std::string& patchArray)
 {
@@ -235,6 +339,7 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   quadrille::QuadSource source = sourceOfMapped(input, this->PatchArrayName);
   source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
   source.threads = this->NumberOfThreads;
+  placeOnFlatTriangles(input, result.mesh, source);
   const quadrille::QuadOutputs written =
     quadrille::writeOutputs(result.mesh, mesh, mapped.map.uv, source);
   for (const std::string& notice : written.notCarried)

@@ -10,6 +10,7 @@
 #include "Convert/PolyData.h"
 #include "Convert/Quads.h"
 #include "Pipeline/Pipeline.h"
+#include "Quads/PolygonUnder.h"
 #include "Runs/InPieces.h"
 #include "Runs/RunOfBlock.h"
 #include "Runs/SmallDetails.h"
@@ -86,6 +87,11 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   if (result.surface.beforeFlips && run.symmetric == nullptr && run.pieces == nullptr)
   {
     // A flipped face lies in several cells.
+    for (std::size_t q = 0; q < result.quads.quads.size(); ++q)
+    {
+      source.quadCells.push_back(
+        run.converted.cell(quadrille::polygonUnder(result.surface, result.quads, q)));
+    }
     for (std::size_t p = 0; p < result.quads.points.size(); ++p)
     {
       const quadrille::SourceLocation at =

@@ -4,6 +4,7 @@
 
 #include "GridMap/Certificate.h"
 #include "Native/Arrays.h"
+#include "Quads/PolygonUnder.h"
 #include "Quads/QuadLayout.h"
 
 #include <cmath>
@@ -47,7 +48,7 @@ std::vector<Id> quadSources(const Remeshed& remeshed, const std::vector<SourceLo
   {
     polygons.push_back(remeshed.isSymmetric ? remeshed.made.quadPolygons[q]
         : remeshed.pieces ? sourceOfQuad(*remeshed.pieces, result.quads, ofPoints, q)
-                          : result.surface.sourcePolygon[result.quads.quadSourceFace[q]]);
+                          : polygonUnder(result.surface, result.quads, q));
   }
   return polygons;
 }

@@ -6,6 +6,7 @@
 #include "Base/Error.h"
 #include "Base/Refuse.h"
 #include "Pipeline/Pipeline.h"
+#include "Quads/PolygonUnder.h"
 
 #include <algorithm>
 #include <numeric>
@@ -111,8 +112,10 @@ QuadResult resultOf(RemeshResult& run)
   }
   result.quads = mesh.quads;
   result.quadTriangles.resize(mesh.quads.size());
-  std::transform(mesh.quadSourceFace.begin(), mesh.quadSourceFace.end(),
-    result.quadTriangles.begin(), [&run](Index f) { return run.surface.sourcePolygon[f]; });
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+  {
+    result.quadTriangles[q] = polygonUnder(run.surface, mesh, q);
+  }
   for (const QuadLine& line : mesh.lines)
   {
     if (!line.boundary)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/FlatSources.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -70,7 +71,18 @@ SourceLocation FlatSources::locate(
     return before_.beforeFlips->locate(face, weights);
   }
   const NearestTriangle::Place at = under(face, weights);
-  return before_.locate(faces_[at.triangle], at.weights);
+  std::array<double, 3> inFace = at.weights;
+  double sum = 0;
+  for (double& weight : inFace)
+  {
+    weight = weight < kOnTriangleEdge ? 0 : weight;
+    sum += weight;
+  }
+  for (double& weight : inFace)
+  {
+    weight /= sum;
+  }
+  return before_.locate(faces_[at.triangle], inFace);
 }
 
 FlatSources::Source FlatSources::sourceOf(const FlippedFace& face) const
@@ -95,6 +107,30 @@ FlatSources::Source FlatSources::sourceOf(const FlippedFace& face) const
     }
   }
   return source;
+}
+
+std::vector<FlatSources::Triangle> FlatSources::triangles() const
+{
+  std::vector<Triangle> found;
+  if (before_.beforeFlips)
+  {
+    found = before_.beforeFlips->triangles();
+  }
+  for (const Index f : faces_)
+  {
+    if (!before_.isFlipped(f))
+    {
+      found.push_back({ before_.sourcePolygon[f], before_.sourcePoints[f] });
+    }
+  }
+  const auto key = [](const Triangle& triangle)
+  { return std::pair(triangle.polygon, triangle.points); };
+  std::sort(found.begin(), found.end(),
+    [&](const Triangle& a, const Triangle& b) { return key(a) < key(b); });
+  found.erase(std::unique(found.begin(), found.end(),
+                [&](const Triangle& a, const Triangle& b) { return key(a) == key(b); }),
+    found.end());
+  return found;
 }
 
 std::size_t FlatSources::bytes() const

@@ -13,6 +13,12 @@
 namespace quadrille
 {
 
+/// By how much, over the diagonal of the bounding box, four points of a plane leave it where their coordinates were
+/// rounded to single precision.
+constexpr double kFlatHeight = 0x1p-21;
+/// A barycentric coordinate below it is rounding: the place is on the edge.
+constexpr double kOnTriangleEdge = 1e-9;
+
 /// A surface as it was before edges of its flat parts were flipped, and its triangles there. Triangles keep neither
 /// their places in the array of faces nor their sources when the surface is ordered, so places are looked for in space.
 class FlatSources
@@ -34,11 +40,18 @@ public:
     std::array<std::array<double, 3>, 3> cornerWeights{};
   };
   Source sourceOf(const FlippedFace& face) const;
+  /// A triangle of the input.
+  struct Triangle
+  {
+    Index polygon = kInvalidIndex;
+    std::array<Index, 3> points{};
+  };
+  /// Those of the flat parts, of all levels, each once.
+  std::vector<Triangle> triangles() const;
   std::size_t bytes() const;
 
 private:
-  NearestTriangle::Place under(
-    const FlippedFace& face, const std::array<double, 3>& weights) const;
+  NearestTriangle::Place under(const FlippedFace& face, const std::array<double, 3>& weights) const;
 
   PreparedSurface before_;
   std::vector<Index> faces_; ///< of before_, by triangle of tree_

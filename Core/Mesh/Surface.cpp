@@ -87,8 +87,9 @@ Index PreparedSurface::inputPointAt(Index h) const
   }
   const std::array<double, 3>& weights = cornerWeights[entry][corner];
   const auto* whole = std::find(weights.begin(), weights.end(), 1.0);
-  return whole == weights.end() ? kInvalidIndex
-                                : sourcePoints[f][static_cast<std::size_t>(whole - weights.begin())];
+  return whole == weights.end()
+    ? kInvalidIndex
+    : sourcePoints[f][static_cast<std::size_t>(whole - weights.begin())];
 }
 
 SourceLocation PreparedSurface::locate(Index f, const std::array<double, 3>& weights) const

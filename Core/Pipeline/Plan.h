@@ -73,9 +73,9 @@ struct Plan
   std::shared_ptr<const std::vector<Index>> featuresGivenUp; ///< half-edges; null: none
   /// Borders of patches that other edges stand for; null: none.
   std::shared_ptr<const MovedFeatures> moved;
-  int featureDrops = 0; ///< how often detected features were given up
+  int featureDrops = 0;             ///< how often detected features were given up
   std::vector<FeatureDrop> dropped; ///< where
-  int borderDrops = 0;  ///< how often features that were asked for but yield were
+  int borderDrops = 0;              ///< how often features that were asked for but yield were
 
   // Of the map.
   double quads = 0; ///< that it is scaled to

@@ -289,7 +289,8 @@ std::vector<FeatureDrop> dropsAt(const AttemptFailure& failure, const std::vecto
   return drops;
 }
 
-std::vector<Index> featuresNear(const AttemptFailure& failure, const std::vector<FeatureDrop>& drops)
+std::vector<Index> featuresNear(
+  const AttemptFailure& failure, const std::vector<FeatureDrop>& drops)
 {
   std::vector<Index> features;
   std::map<double, std::vector<Vector3>> byRadius;
@@ -402,7 +403,8 @@ std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
   std::vector<FeatureDrop> drops = dropsAt(failure, places);
   std::vector<Index> features = featuresNear(failure, drops);
   const double farthest = failure.surface->boundingBoxDiagonal;
-  while (failure.withoutQuads && features.empty() && !drops.empty() && drops.front().radius < farthest)
+  while (
+    failure.withoutQuads && features.empty() && !drops.empty() && drops.front().radius < farthest)
   {
     for (FeatureDrop& drop : drops)
     {

@@ -95,6 +95,7 @@ bool leavesNoArea(const MapAttempt& map);
 /// twice as far as then.
 std::vector<FeatureDrop> dropsAt(const AttemptFailure& failure, const std::vector<Vector3>& places);
 /// The features that go then.
-std::vector<Index> featuresNear(const AttemptFailure& failure, const std::vector<FeatureDrop>& drops);
+std::vector<Index> featuresNear(
+  const AttemptFailure& failure, const std::vector<FeatureDrop>& drops);
 
 } // namespace quadrille

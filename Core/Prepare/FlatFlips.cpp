@@ -14,9 +14,6 @@ namespace quadrille
 namespace
 {
 
-/// By how much, over the diagonal of the bounding box, four points in a plane leave it where their coordinates were
-/// rounded to single precision.
-const double kFlat = std::ldexp(1.0, -21);
 /// Least sum of the cotangents of the two angles opposite to an edge that is as good as the other diagonal.
 constexpr double kAlreadyDelaunay = -1e-6;
 /// Least height of a face that is made, over its longest edge.
@@ -45,7 +42,7 @@ bool isThin(double doubleArea, const Vector3& a, const Vector3& b, const Vector3
 } // namespace
 
 FlatFlips::FlatFlips(PreparedSurface& surface, const std::vector<Index>& edges)
-  : surface_(surface), tolerance_(kFlat * surface.boundingBoxDiagonal),
+  : surface_(surface), tolerance_(kFlatHeight * surface.boundingBoxDiagonal),
     level_(surface.beforeFlips ? surface.beforeFlips->level() + 1 : 1)
 {
   if (std::any_of(edges.begin(), edges.end(), [&](Index h) { return isFlat(h); }))

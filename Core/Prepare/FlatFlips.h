@@ -21,8 +21,8 @@ namespace quadrille
 class FlatFlips
 {
 public:
-  /// edges: one half-edge each, those that may be flipped to begin with. Where none of them is flat, nothing ever is, and
-  /// nothing is kept.
+  /// edges: one half-edge each, those that may be flipped to begin with. Where none of them is flat, nothing ever is,
+  /// and nothing is kept.
   FlatFlips(PreparedSurface& surface, const std::vector<Index>& edges);
 
   bool any() const { return before_ != nullptr; }

@@ -161,9 +161,8 @@ std::vector<HeldCandidate> candidatesOf(const SurfaceInput& input, const Prepare
     const bool isRefined =
       !surface.refinedEntry.empty() && surface.refinedEntry[f] != kInvalidIndex;
     // What a flipped face comes from is not what its corners come from.
-    const std::array<Index, 3> points = surface.isFlipped(f)
-      ? surface.locate(f, cornerWeight(h)).points
-      : surface.sourcePoints[f];
+    const std::array<Index, 3> points =
+      surface.isFlipped(f) ? surface.locate(f, cornerWeight(h)).points : surface.sourcePoints[f];
     for (int i = 0; i < 3; ++i)
     {
       if (points[i] < isHeld.size() && isHeld[points[i]] != 0 &&

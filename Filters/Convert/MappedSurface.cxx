@@ -9,6 +9,7 @@
 #include "Convert/Attributes.h"
 #include "Convert/MeshArrays.h"
 #include "Convert/Tuples.h"
+#include "Mesh/FlatSources.h"
 #include "Mesh/Topology.h"
 
 #include <vtkCellData.h>
@@ -127,6 +128,34 @@ void addSourceArrays(
       }
     });
   data->GetCellData()->AddArray(weights);
+}
+
+/// The user's triangles under faces that come from several: their cells, their points, and where these are.
+void addFlatTriangles(vtkPolyData* data, const PreparedSurface& surface,
+  const ConvertedSurface& converted, vtkPolyData* source)
+{
+  if (!surface.beforeFlips)
+  {
+    return;
+  }
+  const std::vector<FlatSources::Triangle> triangles = surface.beforeFlips->triangles();
+  auto cells = newArray<vtkIdTypeArray>(arrays::kFlatCellId, 1, triangles.size());
+  auto ids = newArray<vtkIdTypeArray>(arrays::kFlatPointIds, 3, triangles.size());
+  auto points = newArray<vtkDoubleArray>(arrays::kFlatPoints, 9, triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    const auto row = static_cast<vtkIdType>(t);
+    cells->SetValue(row, converted.cell(triangles[t].polygon));
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto id = static_cast<vtkIdType>(triangles[t].points[static_cast<std::size_t>(k)]);
+      ids->SetTypedComponent(row, k, id);
+      source->GetPoint(id, points->GetPointer(9 * row + 3 * k));
+    }
+  }
+  data->GetFieldData()->AddArray(cells);
+  data->GetFieldData()->AddArray(ids);
+  data->GetFieldData()->AddArray(points);
 }
 
 std::vector<std::string> carryPointsToSurface(vtkPolyData* data, const PreparedSurface& surface,
@@ -306,6 +335,7 @@ vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
   else
   {
     addSourceArrays(data, surface, converted, threads);
+    addFlatTriangles(data, surface, converted, source);
     addFeatureEdges(data, mesh, threads);
     addTwinsWhereNeeded(data, mesh, threads);
   }

@@ -363,7 +363,7 @@ vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const Mesh& mapped
   notCarried = carryArrays(mesh, mapped, uv, source, origins, data);
   if (source.sourcePoint)
   {
-    origins = originsOf(mesh, source.sourcePoint, {}, source.threads);
+    origins = originsOf(mesh, source.sourcePoint, source.sourceOrigins, source.threads);
   }
   addPointArrays(mesh, source, origins, data->GetPointData());
   addNormals(mesh, data->GetPointData());

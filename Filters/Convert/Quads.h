@@ -42,6 +42,8 @@ struct QuadSource
   std::function<vtkIdType(Index face)> sourceCell;
   /// Where points, and centres of quads, do not lie in their faces (mirror images): in their place. Empty, or one each.
   std::vector<PointOrigin> pointOrigins;
+  std::vector<PointOrigin>
+    sourceOrigins; ///< of points, in the user's own surface; empty, or one each
   std::vector<vtkIdType> pointCells, quadCells;
   std::string patchArray; ///< cell array of the carrier with patch ids, or empty
   CellDataFrom cellDataFrom = CellDataFrom::Centre;

@@ -115,7 +115,7 @@ inline void expectExactImages(const SymmetricResult& made)
 
 /// Each point is where its source says.
 inline void expectSources(
-  const SymmetricResult& made, const SurfaceInput& input, double tolerance = 1e-9)
+  const SymmetricResult& made, const SurfaceInput& input, double tolerance = 2e-9)
 {
   const QuadMesh& quads = made.remeshed.quads;
   ASSERT_EQ(made.pointSources.size(), quads.points.size());

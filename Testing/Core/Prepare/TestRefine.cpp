@@ -255,7 +255,8 @@ SurfaceInput holedSquare(Index n)
   for (Index i = 0; i < 4; ++i)
   {
     const double angle = kPi / 4 + i * kPi / 2;
-    points.emplace_back(4 * std::sqrt(2.0) * std::cos(angle), 4 * std::sqrt(2.0) * std::sin(angle), 0);
+    points.emplace_back(
+      4 * std::sqrt(2.0) * std::cos(angle), 4 * std::sqrt(2.0) * std::sin(angle), 0);
   }
   std::vector<std::vector<Index>> polygons;
   const auto quadrant = [n](Index i)
