@@ -550,7 +550,7 @@ TEST(Pipeline, FeaturesThatLeaveNoRoomAreGivenUpOnlyWhereNobodyAskedForThem)
   EXPECT_TRUE(detected.status.ok()) << detected.status.message;
   EXPECT_TRUE(tells(detected, "leave no room")) << "no notice";
   // The work of the run may end before the map on the surface has no fold any more.
-  EXPECT_LE(invertedQuads(detected.quads.points, detected.quads.quads).size(), 2U)
+  EXPECT_LE(invertedQuads(detected.quads.points, detected.quads.quads).size(), 3U)
     << detected.certificate.text();
   const TopologyCounts topology = topologyOf(detected.quads);
   EXPECT_EQ(topology.euler, -20);
