@@ -129,10 +129,10 @@ struct Ancestry
   }
 };
 
-/// Points and centres of quads in faces that come from several of the user's triangles, which weights below zero tell,
-/// are looked up in these; points are put onto them.
-void placeOnFlatTriangles(
-  vtkPolyData* data, quadrille::QuadMesh& quads, quadrille::QuadSource& source)
+/// Points of quads in faces that come from several of the user's triangles, which weights below zero tell, are looked up
+/// in these.
+void findOnFlatTriangles(
+  vtkPolyData* data, const quadrille::QuadMesh& quads, quadrille::QuadSource& source)
 {
   const Ancestry ancestry(data);
   const FlatTriangles flat(data);
@@ -178,18 +178,11 @@ void placeOnFlatTriangles(
       origin.weights[k] = at->weights[k] < quadrille::kOnTriangleEdge ? 0 : at->weights[k];
       sum += origin.weights[k];
     }
-    quadrille::Vector3 place = quadrille::Vector3::Zero();
-    for (std::size_t k = 0; k < 3; ++k)
+    for (double& weight : origin.weights)
     {
-      origin.weights[k] /= sum;
-      const quadrille::TriangleList& list = flat.tree->triangles();
-      place += origin.weights[k] * list.points[list.corners[at->triangle][k]];
+      weight /= sum;
     }
     source.pointCells.back() = flat.cells->GetValue(at->triangle);
-    if ((place - quads.points[p]).norm() <= 4 * quadrille::kFlatHeight * data->GetLength())
-    {
-      quads.points[p] = place;
-    }
   }
 }
 
@@ -339,7 +332,7 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   quadrille::QuadSource source = sourceOfMapped(input, this->PatchArrayName);
   source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
   source.threads = this->NumberOfThreads;
-  placeOnFlatTriangles(input, result.mesh, source);
+  findOnFlatTriangles(input, result.mesh, source);
   const quadrille::QuadOutputs written =
     quadrille::writeOutputs(result.mesh, mesh, mapped.map.uv, source);
   for (const std::string& notice : written.notCarried)

@@ -3,10 +3,8 @@
 #include "Pipeline/LeaveFrame.h"
 
 #include "Base/Progress.h"
-#include "Mesh/FlatSources.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace quadrille
@@ -47,10 +45,10 @@ void reverseQuads(QuadMesh& quads)
 }
 
 /// Puts points of the quads where they lie on the user's surface. positionOf: of the vertex at a corner of the mapped
-/// mesh; placeIn: of a point in one of its faces, where the corners do not tell it.
-template <typename PositionOf, typename PlaceIn>
-void leaveFrameAt(QuadMesh& quads, const Mesh& mapped, const Frame& frame,
-  const PositionOf& positionOf, const PlaceIn& placeIn)
+/// mesh.
+template <typename PositionOf>
+void leaveFrameAt(
+  QuadMesh& quads, const Mesh& mapped, const Frame& frame, const PositionOf& positionOf)
 {
   for (std::size_t p = 0; p < quads.points.size(); ++p)
   {
@@ -65,11 +63,6 @@ void leaveFrameAt(QuadMesh& quads, const Mesh& mapped, const Frame& frame,
     if ((between - point).cwiseAbs().maxCoeff() > kPlaceRounding)
     {
       point = frame.toUser(point); // it is not on its face
-    }
-    else if (const std::optional<Vector3> onTriangles =
-               placeIn(quads.sourceFace[p], weights, point))
-    {
-      point = *onTriangles;
     }
     else if (corner != weights.end())
     {
@@ -162,9 +155,7 @@ void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector
 void leaveFrame(
   QuadMesh& quads, const Mesh& mapped, const Frame& frame, const std::vector<Vector3>& positions)
 {
-  leaveFrameAt(
-    quads, mapped, frame, [&](Index h) { return positions[mapped.origin[h]]; },
-    [](Index, const Weights&, const Vector3&) { return std::optional<Vector3>(); });
+  leaveFrameAt(quads, mapped, frame, [&](Index h) { return positions[mapped.origin[h]]; });
 }
 
 void reverseMap(std::vector<FixedVec2>& uv)
@@ -240,47 +231,12 @@ void leaveFrameAlone(RemeshResult& result, const Frame& frame)
   quads.quadSourceWeights.clear();
 }
 
-namespace
-{
-
-/// Points in flipped faces get the places that they have on the user's triangles, but where repair has moved these.
-void leaveFrameAt(QuadMesh& quads, const PreparedSurface& surface, const Frame& frame,
-  const std::vector<Vector3>& points)
-{
-  const double tolerance = 2 * kFlatHeight * surface.boundingBoxDiagonal * frame.unit;
-  const auto placeIn = [&](Index f, const Weights& weights,
-                         const Vector3& point) -> std::optional<Vector3>
-  {
-    const auto corner = std::find(weights.begin(), weights.end(), 1.0);
-    if (!surface.isFlipped(f) ||
-      (corner != weights.end() &&
-        surface.inputPointAt(3 * f + static_cast<Index>(corner - weights.begin())) !=
-          kInvalidIndex))
-    {
-      return std::nullopt;
-    }
-    const SourceLocation at = surface.locate(f, weights);
-    Vector3 place = Vector3::Zero();
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      place += at.weights[k] * (points[at.points[k]] - frame.centre);
-    }
-    place += frame.centre;
-    return (place - frame.toUser(point)).norm() <= tolerance ? std::optional<Vector3>(place)
-                                                             : std::nullopt;
-  };
-  leaveFrameAt(
-    quads, surface.mesh, frame, [&](Index h) { return userPosition(surface, h, frame, points); },
-    placeIn);
-}
-
-} // namespace
-
 void leaveFrame(RemeshResult& result, const PreparedSurface& made, const Frame& frame,
   const std::vector<Vector3>& points)
 {
   leaveMeasures(result, frame);
-  leaveFrameAt(result.quads, made, frame, points);
+  leaveFrameAt(
+    result.quads, made.mesh, frame, [&](Index h) { return userPosition(made, h, frame, points); });
 }
 
 void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points,
@@ -292,7 +248,8 @@ void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vect
     return;
   }
   PreparedSurface& surface = result.surface;
-  leaveFrameAt(result.quads, surface, frame, points);
+  leaveFrameAt(result.quads, surface.mesh, frame,
+    [&](Index h) { return userPosition(surface, h, frame, points); });
   if (keepsPositions)
   {
     putUserPositions(surface, frame, points, threads);

@@ -358,7 +358,8 @@ TEST(QuadOutputs, PointsLieOnTheirSourceFaces)
           sum += weights->GetComponent(i, k);
         }
         EXPECT_NEAR(sum, 1, 1e-12);
-        ASSERT_LT((place - Vector3(out.quads->GetPoint(i))).norm(), 1e-12 * diagonal);
+        // Flat parts are flat but for what single precision leaves.
+        ASSERT_LT((place - Vector3(out.quads->GetPoint(i))).norm(), 2e-8 * diagonal);
       }
     }
   }
