@@ -129,7 +129,7 @@ struct Ancestry
   }
 };
 
-/// Points of quads in faces that come from several of the user's triangles, which weights below zero tell, are looked up
+/// Points of quads in faces that come from several of the user's triangles, as weights below zero tell, are looked up
 /// in these.
 void findOnFlatTriangles(
   vtkPolyData* data, const quadrille::QuadMesh& quads, quadrille::QuadSource& source)
