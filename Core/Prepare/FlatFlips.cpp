@@ -39,6 +39,23 @@ bool isThin(double doubleArea, const Vector3& a, const Vector3& b, const Vector3
   return !(doubleArea > kLeastHeight * longest);
 }
 
+/// The two triangles at an inner half-edge from a to b, with the corners c and d beyond it on either side.
+struct TrianglePair
+{
+  Vector3 a, b, c, d;
+  Vector3 normal; ///< unit, of both diagonals
+};
+
+TrianglePair pairOf(const Mesh& mesh, Index h)
+{
+  const Index g = mesh.twin[h];
+  const Vector3& a = mesh.position[mesh.origin[h]];
+  const Vector3& b = mesh.position[mesh.origin[g]];
+  const Vector3& c = mesh.position[mesh.origin[Mesh::previous(h)]];
+  const Vector3& d = mesh.position[mesh.origin[Mesh::previous(g)]];
+  return { a, b, c, d, (b - a).cross(c - d).stableNormalized() };
+}
+
 } // namespace
 
 FlatFlips::FlatFlips(PreparedSurface& surface, const std::vector<Index>& edges)
@@ -59,12 +76,7 @@ bool FlatFlips::isFlat(Index h) const
   {
     return false;
   }
-  const Index g = mesh.twin[h];
-  const Vector3& a = mesh.position[mesh.origin[h]];
-  const Vector3& b = mesh.position[mesh.origin[g]];
-  const Vector3& c = mesh.position[mesh.origin[Mesh::previous(h)]];
-  const Vector3& d = mesh.position[mesh.origin[Mesh::previous(g)]];
-  const Vector3 normal = (b - a).cross(c - d).stableNormalized();
+  const auto [a, b, c, d, normal] = pairOf(mesh, h);
   return std::abs((c - a).dot(normal)) <= tolerance_ && areaAlong(normal, a, b, c) > 0 &&
     areaAlong(normal, b, a, d) > 0;
 }
@@ -78,12 +90,7 @@ bool FlatFlips::isFlippable(Index h) const
   {
     return false;
   }
-  const Index g = mesh.twin[h];
-  const Vector3& a = mesh.position[mesh.origin[h]];
-  const Vector3& b = mesh.position[mesh.origin[g]];
-  const Vector3& c = mesh.position[mesh.origin[Mesh::previous(h)]];
-  const Vector3& d = mesh.position[mesh.origin[Mesh::previous(g)]];
-  const Vector3 normal = (b - a).cross(c - d).stableNormalized();
+  const auto [a, b, c, d, normal] = pairOf(mesh, h);
   return !isThin(areaAlong(normal, a, d, c), a, d, c) &&
     !isThin(areaAlong(normal, b, c, d), b, c, d) && mayFlip(mesh, h);
 }
