@@ -172,16 +172,7 @@ void findOnFlatTriangles(
     const auto at = placeIn(face, quads.sourceWeights[p]);
     PointOrigin& origin = source.sourceOrigins.back();
     flat.points->GetTypedTuple(at->triangle, origin.ids.data());
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      origin.weights[k] = at->weights[k] < quadrille::kOnTriangleEdge ? 0 : at->weights[k];
-      sum += origin.weights[k];
-    }
-    for (double& weight : origin.weights)
-    {
-      weight /= sum;
-    }
+    origin.weights = quadrille::withoutRounding(at->weights);
     source.pointCells.back() = flat.cells->GetValue(at->triangle);
   }
 }

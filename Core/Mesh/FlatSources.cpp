@@ -43,6 +43,21 @@ std::array<double, 3> weightsInPlane(const Mesh& mesh, Index f, const Vector3& p
 
 } // namespace
 
+std::array<double, 3> withoutRounding(std::array<double, 3> weights)
+{
+  double sum = 0;
+  for (double& weight : weights)
+  {
+    weight = weight < kOnTriangleEdge ? 0 : weight;
+    sum += weight;
+  }
+  for (double& weight : weights)
+  {
+    weight /= sum;
+  }
+  return weights;
+}
+
 FlatSources::FlatSources(PreparedSurface before, std::vector<Index> faces)
   : before_(std::move(before)), faces_(std::move(faces)), tree_(trianglesOf(before_.mesh, faces_)),
     level_(before_.beforeFlips ? before_.beforeFlips->level() + 1 : 1)
@@ -71,18 +86,7 @@ SourceLocation FlatSources::locate(
     return before_.beforeFlips->locate(face, weights);
   }
   const NearestTriangle::Place at = under(face, weights);
-  std::array<double, 3> inFace = at.weights;
-  double sum = 0;
-  for (double& weight : inFace)
-  {
-    weight = weight < kOnTriangleEdge ? 0 : weight;
-    sum += weight;
-  }
-  for (double& weight : inFace)
-  {
-    weight /= sum;
-  }
-  return before_.locate(faces_[at.triangle], inFace);
+  return before_.locate(faces_[at.triangle], withoutRounding(at.weights));
 }
 
 FlatSources::Source FlatSources::sourceOf(const FlippedFace& face) const

@@ -18,6 +18,8 @@ namespace quadrille
 constexpr double kFlatHeight = 0x1p-21;
 /// A barycentric coordinate below it is rounding: the place is on the edge.
 constexpr double kOnTriangleEdge = 1e-9;
+/// Barycentric coordinates in a triangle, with 0 for those that are rounding.
+std::array<double, 3> withoutRounding(std::array<double, 3> weights);
 
 /// A surface as it was before edges of its flat parts were flipped, and its triangles there. Triangles keep neither
 /// their places in the array of faces nor their sources when the surface is ordered, so places are looked for in space.

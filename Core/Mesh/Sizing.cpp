@@ -52,9 +52,7 @@ double meanDensity(double a, double b, double c, int splits)
 /// The size that the user asked for at a corner.
 double askedAt(const SurfaceInput& input, const PreparedSurface& surface, Index h)
 {
-  std::array<double, 3> corner{};
-  corner[h % 3] = 1;
-  const SourceLocation source = surface.locate(Mesh::face(h), corner);
+  const SourceLocation source = surface.locate(Mesh::face(h), cornerWeight(h));
   double size = 0;
   for (std::size_t k = 0; k < 3; ++k)
   {

@@ -328,9 +328,7 @@ namespace
 Vector3 placeBetween(
   const PreparedSurface& surface, Index h, const Frame& frame, const std::vector<Vector3>& points)
 {
-  std::array<double, 3> corner{};
-  corner[h % 3] = 1;
-  const SourceLocation source = surface.locate(Mesh::face(h), corner);
+  const SourceLocation source = surface.locate(Mesh::face(h), cornerWeight(h));
   Vector3 between = Vector3::Zero();
   for (std::size_t k = 0; k < 3; ++k)
   {

@@ -168,9 +168,7 @@ std::vector<std::string> carryPointsToSurface(vtkPolyData* data, const PreparedS
     [&](std::size_t i)
     {
       const Index h = outgoing[pointVertex[i]];
-      std::array<double, 3> corner{};
-      corner[h % 3] = 1;
-      const SourceLocation at = surface.locate(Mesh::face(h), corner);
+      const SourceLocation at = surface.locate(Mesh::face(h), cornerWeight(h));
       points[i] = { { at.points[0], at.points[1], at.points[2] }, at.weights };
     });
   return carryPointArrays(
