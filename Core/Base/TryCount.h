@@ -22,7 +22,7 @@ enum class Try : std::uint8_t
   MoreQuads,
   FewerBorders,
   FewerFeatures,
-  NoFeatures,
+  CoarserFeatures,
   NoBorders,
   FewerDetails,
   BordersYield,

@@ -31,6 +31,7 @@ constexpr double kMostJagged = 1.1;
 
 /// Mean width of a patch over s; there a quad is at least so much narrower than it is long.
 constexpr double kThinnestPatch = 0.25;
+constexpr double kThinnestDesignedPatch = 0.125;
 /// Chains shorter than this part of a patch's longest one are its ends and not its sides.
 constexpr double kShortestSide = 0.5;
 
@@ -225,7 +226,8 @@ bool dropChains(
 class ThinPatches
 {
 public:
-  ThinPatches(const Mesh& mesh, double edgeLength, const std::vector<Chain>& chains)
+  /// thinnest: mean width of the others.
+  ThinPatches(const Mesh& mesh, double thinnest, const std::vector<Chain>& chains)
     : mesh_(mesh), chains_(chains), patch_(mesh.faceCount(), kInvalidIndex),
       chainOf_(mesh.halfEdgeCount(), kInvalidIndex)
   {
@@ -242,7 +244,6 @@ public:
         }
       }
     }
-    const double thinnest = kThinnestPatch * edgeLength;
     const double largest = 0.5 * thinnest * longest; // a thin one has no more area than this
     for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
     {
@@ -393,9 +394,9 @@ private:
 };
 
 bool dropAlongThinPatches(
-  Mesh& mesh, double edgeLength, const std::vector<Chain>& chains, FeatureFilterReport& report)
+  Mesh& mesh, double thinnest, const std::vector<Chain>& chains, FeatureFilterReport& report)
 {
-  const std::vector<Index> drop = ThinPatches(mesh, edgeLength, chains).chainsToDrop();
+  const std::vector<Index> drop = ThinPatches(mesh, thinnest, chains).chainsToDrop();
   for (const Index c : drop)
   {
     unmarkFeatures(mesh, chains[c].halfEdges);
@@ -406,8 +407,8 @@ bool dropAlongThinPatches(
 
 /// One pass; returns whether anything went. Most scans have nothing to drop, and patches take memory for each
 /// half-edge. edges: constrainedEdges of the mesh.
-bool removeOnce(
-  Mesh& mesh, double edgeLength, const std::vector<Index>& edges, FeatureFilterReport& report)
+bool removeOnce(Mesh& mesh, double edgeLength, double thinnest, const std::vector<Index>& edges,
+  FeatureFilterReport& report)
 {
   if (std::none_of(edges.begin(), edges.end(), [&](Index h) { return isDetectedFeature(mesh, h); }))
   {
@@ -419,7 +420,7 @@ bool removeOnce(
     std::any_of(chains.begin(), chains.end(), [](const Chain& chain) { return chain.removable; });
   return any &&
     (dropChains(mesh, edgeLength, graph, report) ||
-      dropAlongThinPatches(mesh, edgeLength, chains, report));
+      dropAlongThinPatches(mesh, thinnest, chains, report));
 }
 
 /// One half-edge of each feature that `isOne` says so of and that comes closer than `radius` to one of the points.
@@ -450,7 +451,8 @@ std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& po
 
 } // namespace
 
-FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int threads)
+FeatureFilterReport removeUnresolvedFeatures(
+  Mesh& mesh, double edgeLength, bool isDesigned, int threads)
 {
   if (!(edgeLength > 0))
   {
@@ -459,13 +461,21 @@ FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int 
   FeatureFilterReport report;
   std::vector<Index> edges = constrainedEdges(mesh, threads);
   const auto isFree = [&](Index h) { return !mesh.isConstrained(h); };
-  while (removeOnce(mesh, edgeLength, edges, report))
+  const double thinnest = (isDesigned ? kThinnestDesignedPatch : kThinnestPatch) * edgeLength;
+  while (removeOnce(mesh, edgeLength, thinnest, edges, report))
   {
     edges.erase(std::remove_if(edges.begin(), edges.end(), isFree), edges.end());
   }
   report.keptEdges = static_cast<std::size_t>(
     std::count_if(edges.begin(), edges.end(), [&](Index h) { return mesh.isFeature(h); }));
   return report;
+}
+
+bool hasDetectedFeature(const Mesh& mesh)
+{
+  constexpr std::uint8_t kFeatureBits = kFeatureEdge | kRequestedFeature;
+  return std::any_of(mesh.flags.begin(), mesh.flags.end(),
+    [](std::uint8_t flags) { return (flags & kFeatureBits) == kFeatureEdge; });
 }
 
 bool isDetectedFeature(const Mesh& mesh, Index h)

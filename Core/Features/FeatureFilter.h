@@ -21,11 +21,14 @@ struct FeatureFilterReport
 /// Unmarks features that nobody asked for (without kRequestedFeature) and that the edge length s cannot resolve:
 /// dangling chains shorter than 4 s or zigzagging, closed loops and whole tangles whose chains are on average shorter
 /// than s, and the bluntest side of each patch between features that is on average (2 area / perimeter) narrower than s
-/// / 4. Chains run between vertices where other than two constrained edges meet. Features that the user gave stay.
+/// / 4, on a designed surface s / 8, as its edges are exact. Chains run between vertices where other than two constrained edges meet. Features that the user gave stay.
 /// Repeated until nothing changes.
 /// Throws InvalidInput when edgeLength is not positive.
-FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int threads = 1);
+FeatureFilterReport removeUnresolvedFeatures(
+  Mesh& mesh, double edgeLength, bool isDesigned = false, int threads = 1);
 
+/// Whether there is a feature that nobody asked for; most surfaces have none.
+bool hasDetectedFeature(const Mesh& mesh);
 /// Whether h is that half-edge of a feature that stands for it, and nobody asked for the feature (kRequestedFeature).
 bool isDetectedFeature(const Mesh& mesh, Index h);
 /// One half-edge of each feature that nobody asked for (without kRequestedFeature) and that comes closer than `radius`

@@ -364,17 +364,10 @@ private:
   MovedFeatures moved_;
 };
 
-/// Most surfaces have no features, or none that nobody asked for.
-bool hasDetectedFeature(const Mesh& mesh)
-{
-  constexpr std::uint8_t kFeatureBits = kFeatureEdge | kRequestedFeature;
-  return std::any_of(mesh.flags.begin(), mesh.flags.end(),
-    [](std::uint8_t flags) { return (flags & kFeatureBits) == kFeatureEdge; });
-}
-
 } // namespace
 
-NetworkReport simplifyFeatureNetwork(Mesh& mesh, double edgeLength, FeatureFilterReport& filtered)
+NetworkReport simplifyFeatureNetwork(
+  Mesh& mesh, double edgeLength, bool isDesigned, FeatureFilterReport& filtered)
 {
   if (!(edgeLength > 0))
   {
@@ -383,7 +376,7 @@ NetworkReport simplifyFeatureNetwork(Mesh& mesh, double edgeLength, FeatureFilte
   NetworkReport report;
   while (hasDetectedFeature(mesh) && simplifyOnce(mesh, edgeLength, report))
   {
-    const FeatureFilterReport more = removeUnresolvedFeatures(mesh, edgeLength);
+    const FeatureFilterReport more = removeUnresolvedFeatures(mesh, edgeLength, isDesigned);
     filtered.removedEdges += more.removedEdges;
     filtered.keptEdges = more.keptEdges;
   }

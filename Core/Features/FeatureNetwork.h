@@ -43,7 +43,8 @@ struct NetworkReport
 /// Only detected features go (without kRequestedFeature), no boundaries. Shortest arcs first, in rounds of arcs that
 /// share no node, with removeUnresolvedFeatures in between, until nothing changes. `filtered` gets what that removes.
 /// Throws InvalidInput unless edgeLength is positive.
-NetworkReport simplifyFeatureNetwork(Mesh& mesh, double edgeLength, FeatureFilterReport& filtered);
+NetworkReport simplifyFeatureNetwork(
+  Mesh& mesh, double edgeLength, bool isDesigned, FeatureFilterReport& filtered);
 
 /// What mergeNearJunctions has changed, one half-edge of each edge.
 struct MovedFeatures

@@ -14,7 +14,9 @@ namespace quadrille
 void markFeaturesByAngle(Mesh& mesh, double angle, int threads, double precision = 0);
 
 /// As markFeaturesByAngle, but for edges that do not stand out from their surroundings (see edgesOfFacets): those of
-/// the facets of a coarse or noisy sampling of a smooth surface. Features that were marked before stay.
+/// the facets of a coarse or noisy sampling of a smooth surface. Where a tenth of the area or more lies in planes, each
+/// of a two-hundredth of it or more, the surface is one of designed bodies, and each edge above the angle is a feature.
+/// Features that were marked before stay.
 FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision = 0);
 
 /// The normals that count for these half-edges, one each: of their faces, or where these are slivers of the face that

@@ -98,6 +98,8 @@ struct SourceLocation
 /// Sharp edges that are no creases.
 struct FacetReport
 {
+  /// Whether the surface is one of designed bodies, all of whose sharp edges are creases.
+  bool isDesigned = false;
   std::size_t edges = 0;
   Vector3 place = Vector3::Zero(); ///< of one of them
 

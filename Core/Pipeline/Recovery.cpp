@@ -34,7 +34,7 @@ constexpr std::array<Strategy, 4> kForRounds{ {
 
 /// Where no round has quads and none of the others is left, or may be tried any more.
 constexpr std::array<Strategy, 2> kLastResort{ {
-  { Try::NoFeatures, 1, noFeatures },
+  { Try::CoarserFeatures, 2, coarserFeatures },
   { Try::NoBorders, 2, noBorders },
 } };
 

@@ -50,11 +50,11 @@ std::optional<Restart> withoutRest(Settled& settled, SizedSurface& sized,
   std::optional<Plan> plan;
   if (!isOther || isMatterOfFeatures)
   {
-    plan = withoutFeatures(*settled.run, first);
+    plan = withCoarserFeatures(*settled.run, first);
   }
   if (plan)
   {
-    setStep(*plan, Try::NoFeatures);
+    setStep(*plan, Try::CoarserFeatures);
   }
   else if (isOther)
   {

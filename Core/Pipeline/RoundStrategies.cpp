@@ -57,6 +57,8 @@ constexpr std::array<BorderStep, kMostBorderDrops> kBorderSteps{ {
   { BorderStep::Way::Unresolved, 2 },
   { BorderStep::Way::Unresolved, 4 },
 } };
+/// The same of detected features, where nothing else has led to quads.
+constexpr double kCoarserFeatures = 4;
 /// Of the last resort, before all of them go.
 constexpr double kLastBorderSize = 8;
 
@@ -148,19 +150,26 @@ void giveUp(const std::vector<Index>& features, Plan& plan)
   plan.featuresGivenUp = std::move(all);
 }
 
-/// Features that quads so many times as large as they are to be cannot resolve, where those that yield count as
-/// detected ones.
+/// Features that quads so many times as large as they are to be cannot resolve.
+std::vector<Index> unresolved(const RunContext& run, Mesh mesh, double times)
+{
+  const std::vector<std::uint8_t> before = mesh.flags;
+  const double edgeLength = times * run.edgeLength;
+  const bool isDesigned = run.surface->facets.isDesigned;
+  FeatureFilterReport filtered =
+    removeUnresolvedFeatures(mesh, edgeLength, isDesigned, run.options.threads);
+  simplifyFeatureNetwork(mesh, edgeLength, isDesigned, filtered);
+  return lostFeatures(mesh, before);
+}
+
+/// The same where those that yield count as detected ones.
 std::vector<Index> unresolvedWithBorders(const RunContext& run, Mesh mesh, double times)
 {
   for (std::uint8_t& flags : mesh.flags.editAll())
   {
     flags &= (flags & kYieldingFeature) != 0 ? static_cast<std::uint8_t>(~kRequestedFeature) : 0xFF;
   }
-  const std::vector<std::uint8_t> before = mesh.flags;
-  const double edgeLength = times * run.edgeLength;
-  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, edgeLength, run.options.threads);
-  simplifyFeatureNetwork(mesh, edgeLength, filtered);
-  return lostFeatures(mesh, before);
+  return unresolved(run, std::move(mesh), times);
 }
 
 /// Junctions of borders that are too near to each other for quads become one; null where there are none.
@@ -472,21 +481,29 @@ std::optional<Plan> withFewerBorders(
   return std::nullopt;
 }
 
-std::optional<Plan> withoutFeatures(const RunContext& run, const Plan& before)
+std::optional<Plan> withCoarserFeatures(const RunContext& run, const Plan& before)
 {
   const PlannedSurface surface = withPlan(run.surface, before, run.options.threads);
-  const std::vector<Index> features = allOf(surface->mesh, isDetectedFeature);
+  const std::vector<Index> detected = allOf(surface->mesh, isDetectedFeature);
+  std::vector<Index> features;
+  if (!before.hasCoarserFeatures && !detected.empty())
+  {
+    features = unresolved(run, surface->mesh, kCoarserFeatures);
+  }
+  features = features.empty() ? detected : features;
   if (features.empty())
   {
     return std::nullopt;
   }
   Plan plan = fromTheBeginning(run, before);
   plan.featureDrops = static_cast<int>(kMostFeatureDrops);
+  plan.hasCoarserFeatures = true;
   giveUp(features, plan);
-  plan.notices.push_back("with features no attempt has led to quads: all " +
-    std::to_string(plan.featuresGivenUp->size()) +
-    " sharp edges that were found by their angle were not used as features; ask for smaller "
-    "quads, or mark the edges that are to stay");
+  plan.notices.push_back("with all features no attempt has led to quads: " +
+    std::to_string(features.size()) + " of " + std::to_string(detected.size()) +
+    " sharp edges that were found by their angle were not used as features" +
+    (features.size() < detected.size() ? ", those that much larger quads could not follow" : "") +
+    "; ask for smaller quads, or mark the edges that are to stay");
   return plan;
 }
 
@@ -510,13 +527,13 @@ std::optional<Plan> noBorders(const AttemptFailure& failure)
   return plan;
 }
 
-std::optional<Plan> noFeatures(const AttemptFailure& failure)
+std::optional<Plan> coarserFeatures(const AttemptFailure& failure)
 {
   const std::vector<std::string>& steps = failure.history.steps();
-  const auto times = std::count(steps.begin(), steps.end(), tryRow(Try::NoFeatures).name);
+  const auto times = std::count(steps.begin(), steps.end(), tryRow(Try::CoarserFeatures).name);
   return static_cast<std::size_t>(times) >= failure.bound || isTooLarge(failure.attempt)
     ? std::nullopt
-    : withoutFeatures(failure.run, failure.attempt.plan);
+    : withCoarserFeatures(failure.run, failure.attempt.plan);
 }
 
 } // namespace quadrille

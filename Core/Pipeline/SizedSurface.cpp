@@ -177,18 +177,22 @@ void noteGivenUp(FeatureLoss reason, std::size_t removed, const Mesh& mesh,
   }
 }
 
-void filterFeatures(Mesh& mesh, const RemeshOptions& options, SizedSurface& sized)
+void filterFeatures(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
 {
+  Mesh& mesh = surface.mesh;
+  const bool isDesigned = surface.facets.isDesigned;
   std::vector<std::uint8_t> before = mesh.flags;
-  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, sized.edgeLength, options.threads);
+  FeatureFilterReport filtered =
+    removeUnresolvedFeatures(mesh, sized.edgeLength, isDesigned, options.threads);
   noteGivenUp(FeatureLoss::Unresolved, filtered.removedEdges, mesh, before, sized);
   CreaseReport creases;
-  if (judgesCreases(options))
+  if (judgesCreases(options) && !isDesigned)
   {
     creases = removeFalseCreases(mesh, sized.edgeLength, options.threads, filtered);
     noteGivenUp(FeatureLoss::NoCrease, creases.removedEdges, mesh, before, sized);
   }
-  const NetworkReport network = simplifyFeatureNetwork(mesh, sized.edgeLength, filtered);
+  const NetworkReport network =
+    simplifyFeatureNetwork(mesh, sized.edgeLength, isDesigned, filtered);
   noteGivenUp(FeatureLoss::ShortArc, network.removedEdges, mesh, before, sized);
   tell({ featureNotice(filtered), creases.text(), network.text() }, sized.notices);
 }
@@ -200,7 +204,7 @@ void refine(PreparedSurface& surface, const RemeshOptions& options, SizedSurface
   const std::size_t before = surface.mesh.faceCount();
   tell({ dropSmallComponents(surface, options, sized) }, sized.notices);
   tell({ surface.facets.text() }, sized.notices);
-  filterFeatures(surface.mesh, options, sized);
+  filterFeatures(surface, options, sized);
   refineSurface(surface, sized.edgeLength, subProgress(options.progress, 0.1, 0.15, "Refining: "),
     options.threads);
   sized.stages.add("refine", secondsNow() - start, before, surface.mesh.faceCount());

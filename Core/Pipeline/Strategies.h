@@ -71,12 +71,13 @@ std::optional<Plan> fewerBorders(const AttemptFailure& failure);
 std::optional<Plan> withFewerBorders(
   const RunContext& run, const Plan& before, const std::vector<Vector3>& places);
 
-/// Where nothing else has led to quads: all features that only the dihedral angle asked for are given up. Bound: times
-/// in all.
-std::optional<Plan> noFeatures(const AttemptFailure& failure);
+/// Where nothing else has led to quads: the features that only the dihedral angle asked for and that quads four times as
+/// large could not follow (see removeUnresolvedFeatures) are given up, and the next time all of them. Bound: times in
+/// all.
+std::optional<Plan> coarserFeatures(const AttemptFailure& failure);
 
-/// The plan of noFeatures; none where there is no such feature.
-std::optional<Plan> withoutFeatures(const RunContext& run, const Plan& before);
+/// The plan of coarserFeatures; none where there is no such feature.
+std::optional<Plan> withCoarserFeatures(const RunContext& run, const Plan& before);
 
 /// Where that has not led to quads either: features that yield are given up but for long ones far from each other, and
 /// then all. Bound: times in all.

@@ -368,12 +368,14 @@ void SymmetryRun::withFeatures(const std::function<void(Mesh&, double edgeLength
   Mesh mesh = whole_->surface.mesh;
   const double sizedArea = mesh.sizing.empty() ? surface().area : quadrille::sizedArea(mesh);
   const double edgeLength = targetEdgeLength(options_, sizedArea, made_.diagonal);
-  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, edgeLength, options_.threads);
-  if (judgesCreases(options_))
+  const bool isDesigned = whole_->surface.facets.isDesigned;
+  FeatureFilterReport filtered =
+    removeUnresolvedFeatures(mesh, edgeLength, isDesigned, options_.threads);
+  if (judgesCreases(options_) && !isDesigned)
   {
     removeFalseCreases(mesh, edgeLength, options_.threads, filtered);
   }
-  simplifyFeatureNetwork(mesh, edgeLength, filtered);
+  simplifyFeatureNetwork(mesh, edgeLength, isDesigned, filtered);
   act(mesh, edgeLength);
 }
 

@@ -33,19 +33,19 @@ Counts countEdges(const Mesh& mesh, int threads = 1)
   return { test::featureHalfEdges(sharp) / 2, test::featureHalfEdges(creases) / 2 };
 }
 
-/// A prism with lids that are fans.
-Mesh prism(int sides)
+/// A prism over a closed polygon with these corners, whose lids are fans. twist: of its upper lid.
+Mesh prism(const std::vector<Vector2>& polygon, double height, double twist = 0)
 {
   std::vector<Vector3> points;
   std::vector<test::Triangle> triangles;
-  const auto n = static_cast<Index>(sides);
+  const auto n = static_cast<Index>(polygon.size());
   for (Index i = 0; i < 2 * n; ++i)
   {
-    const double angle = 2 * test::kPi * static_cast<double>(i % n) / sides;
-    points.emplace_back(std::cos(angle), std::sin(angle), i < n ? 0.0 : 1.0);
+    const Vector2 p = Eigen::Rotation2Dd(i < n ? 0 : twist) * polygon[i % n];
+    points.emplace_back(p.x(), p.y(), i < n ? 0.0 : height);
   }
   points.emplace_back(0, 0, 0);
-  points.emplace_back(0, 0, 1);
+  points.emplace_back(0, 0, height);
   for (Index i = 0; i < n; ++i)
   {
     const Index j = (i + 1) % n;
@@ -53,6 +53,17 @@ Mesh prism(int sides)
       { { i, j, n + j }, { i, n + j, n + i }, { 2 * n, j, i }, { 2 * n + 1, n + i, n + j } });
   }
   return test::makeMesh(std::move(points), triangles);
+}
+
+Mesh prism(int sides)
+{
+  std::vector<Vector2> polygon;
+  for (int i = 0; i < sides; ++i)
+  {
+    const double angle = 2 * test::kPi * i / sides;
+    polygon.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return prism(polygon, 1);
 }
 
 TEST(Creases, FacetsOfACoarseIsosurfaceAreNone)
@@ -78,6 +89,32 @@ TEST(Creases, SolidsKeepAllOfTheirEdges)
   EXPECT_EQ(countEdges(test::sphere(0)).creases, 30u);
   EXPECT_EQ(countEdges(test::unitCube(5)).creases, 60u);
   EXPECT_EQ(countEdges(test::doubleTorus(2)).creases, countEdges(test::doubleTorus(2)).sharp);
+}
+
+TEST(Creases, OnADesignedSurfaceEachEdgeAboveTheAngleIsOne)
+{
+  // Its sides turn by 47 and by 25 degrees in turn: the sharp ones do not stand out from the others.
+  std::vector<Vector2> polygon;
+  Vector2 corner(-0.5, -1.6);
+  double way = 0;
+  for (int i = 0; i < 10; ++i)
+  {
+    polygon.push_back(corner);
+    corner += Vector2(std::cos(way), std::sin(way));
+    way += (i % 2 == 0 ? 47 : 25) * test::kPi / 180;
+  }
+  const Mesh flat = prism(polygon, 1);
+  const Counts counts = countEdges(flat);
+  EXPECT_EQ(counts.sharp, 20U + 5U); // the rims, and every second side
+  EXPECT_EQ(counts.creases, counts.sharp);
+  Mesh creases = flat;
+  EXPECT_TRUE(markCreases(creases, kAngle, 1).isDesigned);
+  // Without planes but its small lids it may be a coarse sampling of a round body.
+  const Mesh bent = prism(polygon, 20, 0.1);
+  ASSERT_EQ(countEdges(bent).sharp, 20U + 5U);
+  EXPECT_LT(countEdges(bent).creases, countEdges(bent).sharp);
+  creases = bent;
+  EXPECT_FALSE(markCreases(creases, kAngle, 1).isDesigned);
 }
 
 TEST(Creases, ARidgeThroughNoiseStays)

@@ -178,6 +178,17 @@ TEST(FeatureFilter, BandThatQuadsResolveKeepsBothSides)
   EXPECT_EQ(removeUnresolvedFeatures(wide, 4.0).removedEdges, 0u);
 }
 
+TEST(FeatureFilter, OnADesignedSurfaceABandMayBeHalfAsWide)
+{
+  for (const auto& [edgeLength, removed] : { std::pair(7.6, 0U), std::pair(8.0, 40U) })
+  {
+    Mesh mesh = bentBand(1, 0.8, 0.9);
+    EXPECT_EQ(removeUnresolvedFeatures(mesh, edgeLength, true).removedEdges, removed);
+    Mesh scan = bentBand(1, 0.8, 0.9);
+    EXPECT_EQ(removeUnresolvedFeatures(scan, edgeLength, false).removedEdges, 40U);
+  }
+}
+
 TEST(FeatureFilter, SideOfAThinBandThatWasAskedForStays)
 {
   Mesh mesh = bentBand(1, 0.9, 0.8, kFeatureEdge | kRequestedFeature);

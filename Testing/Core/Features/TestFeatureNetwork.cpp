@@ -119,7 +119,7 @@ double shortestDetectedArc(const Mesh& mesh)
 NetworkReport simplify(Mesh& mesh, double edgeLength)
 {
   FeatureFilterReport filtered;
-  return simplifyFeatureNetwork(mesh, edgeLength, filtered);
+  return simplifyFeatureNetwork(mesh, edgeLength, false, filtered);
 }
 
 TEST(FeatureNetwork, RungBetweenTwoCurvesGoes)
@@ -292,7 +292,7 @@ TEST(FeatureNetwork, InvalidEdgeLength)
 {
   Mesh mesh = test::gridPlane(2, 2);
   FeatureFilterReport filtered;
-  EXPECT_THROW(simplifyFeatureNetwork(mesh, 0, filtered), InvalidInput);
+  EXPECT_THROW(simplifyFeatureNetwork(mesh, 0, false, filtered), InvalidInput);
   EXPECT_THROW(givenUpCurves(mesh, { 0 }, 0, FeatureLoss::ShortArc), InvalidInput);
   EXPECT_THROW(lostFeatures(mesh, {}), InvalidInput);
 }

@@ -148,7 +148,7 @@ TEST(Recovery, StepsAreTriedInThisOrder)
   EXPECT_EQ(recoverySteps(),
     std::vector<std::string>(
       { "more freedom", "room for curves", "kept defects", "smaller quads near", "more quads",
-        "fewer borders", "fewer features", "no features", "no borders" }));
+        "fewer borders", "fewer features", "coarser features", "no borders" }));
 }
 
 // The plan that a run begins with.
@@ -963,16 +963,39 @@ TEST(Recovery, WithoutQuadsTheLastResortIsTriedWhateverTheWork)
   history.addQuads(nullptr);
   EXPECT_FALSE(nextPlan(run.context, history, false)); // something else follows
   const std::optional<Plan> next = nextPlan(run.context, history);
-  expectStep(next, "no features");
+  expectStep(next, "coarser features");
   EXPECT_EQ(next->why, "no valid map of the coarse level");
   ASSERT_TRUE(next->featuresGivenUp);
   EXPECT_EQ(next->featuresGivenUp->size(), 12U * 8U); // all edges of the cube
   EXPECT_EQ(next->levels.keptVertices, run.first().levels.keptVertices);
   EXPECT_EQ(next->levels.coarseVertices, run.first().levels.coarseVertices);
-  // Once only, and there is nothing left to give up.
+  // There is nothing left to give up.
   history.addMap(*next, failed);
   history.addQuads(nullptr);
   EXPECT_FALSE(nextPlan(run.context, history));
+}
+
+TEST(Recovery, TheLastResortBeginsWithWhatMuchLargerQuadsCouldNotFollow)
+{
+  Mesh small = test::unitCube(2);
+  for (Vector3& p : small.position.editAll())
+  {
+    p *= 0.1;
+  }
+  const SurfaceInput input =
+    test::toInput(test::disjointUnion(test::unitCube(8), small, Vector3(2, 0, 0)));
+  CubeRun run(input);
+  const std::optional<Plan> next = run.nextAfter(run.first(), failedMap(), nullptr, true);
+  expectStep(next, "coarser features");
+  ASSERT_TRUE(next->featuresGivenUp);
+  for (const Index h : *next->featuresGivenUp)
+  {
+    EXPECT_GT(run.mesh().position[run.mesh().origin[h]].x(), 1.5);
+  }
+  EXPECT_EQ(next->featuresGivenUp->size(), 12U * 2U);
+  const std::optional<Plan> last = run.nextAfter(*next, failedMap(), nullptr, true);
+  expectStep(last, "coarser features");
+  EXPECT_EQ(last->featuresGivenUp->size(), 12U * 10U);
 }
 
 TEST(Recovery, TheLastResortLeavesFeaturesThatWereAskedFor)
