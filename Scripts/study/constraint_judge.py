@@ -17,9 +17,9 @@ from scipy.spatial import cKDTree
 STEP = 0.1
 #: Edge lengths within which a place or a line has to be.
 PLACE = 0.3
-#: Edge lengths of the quads there within which other irregular vertices are where they were, as the guide has it.
+#: Edge lengths of the quad there within which other irregular vertices are where they were, as the guide has it.
 OTHERS = 2
-#: Edge lengths of the quads there within which a connection ends where its line does, as the guide has it.
+#: Edge lengths of the quad there within which a connection ends where its line does, as the guide has it.
 ENDS = 1
 #: Mean edge lengths by which a chain and its course may differ, as the guide has it.
 REACH = 6
@@ -346,6 +346,15 @@ class Quads:
         near = self.tree.query(numpy.atleast_2d(places), k=min(9, len(self.quads)))[1]
         return float(self.sizes[near].mean())
 
+    def edge_at(self, place):
+        """The mean of the edges of the quad that is nearest to a place."""
+        near = self.tree.query(place, k=min(9, len(self.quads)))[1].reshape(-1)
+        corners = self.points[self.quads[near]]
+        there = numpy.repeat([place], len(near), axis=0)
+        nearest = corners[numpy.minimum(*(in_triangles(there, *(corners[:, i] for i in half))[1]
+                                          for half in ((0, 1, 2), (0, 2, 3)))).argmin()]
+        return float(numpy.linalg.norm(numpy.roll(nearest, -1, axis=0) - nearest, axis=1).mean())
+
     def below(self, places, normals):
         """For each place the quad that is nearest to it, of those that face the same way."""
         near = self.tree.query(places, k=min(9, len(self.quads)))[1].reshape(len(places), -1)
@@ -458,7 +467,7 @@ def nearest_of_valence(quads, place, normal, valence):
     those = those[quads.point_normals[those] @ normal > 0]
     if not len(those):
         return math.inf
-    return float(numpy.linalg.norm(quads.points[those] - place, axis=1).min()) / quads.length_at(place)
+    return float(numpy.linalg.norm(quads.points[those] - place, axis=1).min()) / quads.edge_at(place)
 
 
 def judge_valence(surface, quads, place, valence):
@@ -475,7 +484,7 @@ def others(quads, place, valence):
     same = those[valences[those] == valence]
     if len(same):
         those = those[those != same[numpy.linalg.norm(quads.points[same] - place, axis=1).argmin()]]
-    within = numpy.array([OTHERS * quads.length_at(quads.points[p]) for p in those])
+    within = numpy.array([OTHERS * quads.edge_at(quads.points[p]) for p in those])
     return quads.points[those], valences[those], within
 
 
@@ -519,7 +528,7 @@ def judge_connection(surface, quads, course):
     near = numpy.flatnonzero(numpy.minimum(numpy.linalg.norm(quads.points - start, axis=1),
                                            numpy.linalg.norm(quads.points - end, axis=1)) < 4 * surface.edge)
     holds[near[surface.to_feature(quads.points[near]) <= STEP * surface.edge]] = True
-    edge = [quads.length_at(start), quads.length_at(end)]
+    edge = [quads.edge_at(start), quads.edge_at(end)]
     off = [numpy.linalg.norm(quads.points - p, axis=1) / e for p, e in zip((start, end), edge)]
     # Within three, to tell by how much the ends of what is there are off.
     best = None
