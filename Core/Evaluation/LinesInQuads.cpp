@@ -20,7 +20,7 @@ constexpr double kReachOfEnds = 3;
 /// A closed chain that is so many times as long as its line goes round more than once.
 constexpr double kOnceRound = 1.9;
 /// Places an edge length at which lines are compared.
-constexpr double kPlacesAnEdge = 4;
+constexpr double kLinePlacesAnEdge = 4;
 
 double meanQuadEdge(const QuadMesh& mesh)
 {
@@ -50,7 +50,7 @@ class LineComparison
 {
 public:
   LineComparison(const std::vector<Vector3>& line, double edgeLength)
-    : step_(edgeLength / kPlacesAnEdge), edgeLength_(edgeLength), places_(sampled(line)),
+    : step_(edgeLength / kLinePlacesAnEdge), edgeLength_(edgeLength), places_(sampled(line)),
       segments_(line)
   {
   }
