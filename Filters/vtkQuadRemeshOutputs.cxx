@@ -145,7 +145,7 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   }
   quadrille::addText(quads, "Notices", notices);
   block.output(5)->ShallowCopy(quadrille::writeConstraints(
-    run.asked.placed, run.asked.curves, result.quads, quadrille::metOfDrawn(words, run.asked)));
+    run.asked.placed, result.quads, quadrille::metOfDrawn(words, run.asked)));
   if (run.symmetric != nullptr)
   {
     words.push_back(quadrille::judgeSymmetry(*run.symmetric));
@@ -171,8 +171,8 @@ void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::Asked
   block.output(4)->ShallowCopy(written.irregular);
   const std::vector<quadrille::ConstraintWord> words =
     quadrille::judgeConstraints(asked, result.quads, {});
-  block.output(5)->ShallowCopy(quadrille::writeConstraints(
-    asked.placed, asked.curves, result.quads, quadrille::metOfDrawn(words, asked)));
+  block.output(5)->ShallowCopy(
+    quadrille::writeConstraints(asked.placed, result.quads, quadrille::metOfDrawn(words, asked)));
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
   block.output(7)->ShallowCopy(
     quadrille::writeSmallDetails(result.details, result.givenUpFeatures));

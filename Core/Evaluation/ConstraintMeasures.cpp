@@ -352,28 +352,42 @@ ConstraintMeasure ConstraintMeasures::line(
     }
     return word;
   }
-  if (constraint.curve >= outcomes.size())
+  const std::optional<LineInQuads> found = lineInQuads(constraint);
+  if (found)
+  {
+    word.deviation = found->distance;
+    word.place = found->isMet() ? found->place : found->end;
+    word.isMet = found->isMet();
+    word.reason = word.isMet ? ""
+                             : "the chain of edges ends at " + placeText(found->end) + ", " +
+        shortText(found->ends) + " edge lengths from the end of the line, at most " +
+        shortText(kMetEnds) + " count as met: end the line there";
+  }
+  else if (constraint.curve >= outcomes.size())
   {
     word.reason = "the method has no connections and cycles: choose another one";
-    return word;
+  }
+  else
+  {
+    const std::string& why = outcomes[constraint.curve].why;
+    word.reason = why.empty() ? "the quads have no straight chain of edges within " +
+        shortText(kMetLine) + " edge lengths of the line"
+                              : why;
+  }
+  return word;
+}
+
+std::optional<LineInQuads> ConstraintMeasures::lineInQuads(const PlacedConstraint& constraint)
+{
+  if (mesh_.quads.empty())
+  {
+    return std::nullopt;
   }
   if (!lines_)
   {
-    lines_.emplace(mesh_);
+    lines_.emplace(mesh_, quads());
   }
-  const CurveOutcome& outcome = outcomes[constraint.curve];
-  const std::vector<Vector3> chain = lines_->chainOf(constraint, outcome);
-  word.isMet = !chain.empty();
-  word.reason = word.isMet ? ""
-    : outcome.why.empty()  ? "the quads have no straight chain of edges there"
-                           : outcome.why;
-  if (!chain.empty())
-  {
-    const auto [distance, place] = farthestFrom(constraint.path, chain);
-    word.deviation = distance / lines_->edgeLength();
-    word.place = place;
-  }
-  return word;
+  return lines_->find(constraint);
 }
 
 ConstraintMeasure ConstraintMeasures::sizeOf(const std::vector<std::pair<Index, double>>& quads,

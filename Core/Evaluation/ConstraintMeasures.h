@@ -6,6 +6,7 @@
 
 #include "Evaluation/LinesInQuads.h"
 #include "Evaluation/QuadPlaces.h"
+#include "Integers/CurveIsolines.h"
 #include "Requests/DrawnConstraints.h"
 
 #include <array>
@@ -99,10 +100,12 @@ public:
   ConstraintMeasure valence(const Vector3& place, int asked);
   /// The same of a vertex that was moved: at its new place, and that its old one is regular. valence: of the vertex.
   ConstraintMeasure move(const Vector3& from, const Vector3& to, int valence);
-  /// "edge lengths": of a connection or cycle, met where there is a straight chain of edges: the largest distance of
-  /// that from the course. outcomes: see AskedConstraints.
+  /// "edge lengths": of a connection or cycle, met where there is a straight chain of edges that ends where the line
+  /// does: the largest distance from the chain to the line or back. outcomes: see AskedConstraints, for the reason.
   ConstraintMeasure line(
     const PlacedConstraint& constraint, const std::vector<CurveOutcome>& outcomes);
+  /// The chain that is judged for a connection or cycle; none: there is none.
+  std::optional<LineInQuads> lineInQuads(const PlacedConstraint& constraint);
   /// "factor": by which the median by area of the edge lengths of quads, the roots of their areas, differs from what
   /// was asked: of those with their centre within the radius, or else of those round the point next to the place.
   /// quads, where given, gets them.

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/LinesInQuads.h"
 
-#include "Mesh/Distance.h"
+#include "Requests/GuidedPlaces.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace quadrille
 {
@@ -13,11 +15,12 @@ namespace quadrille
 namespace
 {
 
-/// In edges of quads: how far a line that ends at a feature or boundary may end from the place asked for.
-constexpr double kReachInQuads = 3;
-/// How far a closed line may lie from the curve: it is straight in the map, the curve need not be. The table tells how
-/// far it does.
-constexpr double kReachOfCycle = 6;
+/// Edge lengths within which the ends of a connection are looked for: so far a line may end from what it joins.
+constexpr double kReachOfEnds = 3;
+/// A closed chain that is so many times as long as its line goes round more than once.
+constexpr double kOnceRound = 1.9;
+/// Places an edge length at which lines are compared.
+constexpr double kLinePlacesAnEdge = 4;
 
 double meanQuadEdge(const QuadMesh& mesh)
 {
@@ -32,9 +35,79 @@ double meanQuadEdge(const QuadMesh& mesh)
   return mesh.quads.empty() ? 0 : sum / (4 * static_cast<double>(mesh.quads.size()));
 }
 
-bool isIrregular(const QuadMesh& mesh, Index p)
+double lengthOf(const std::vector<Vector3>& line)
 {
-  return mesh.valence[p] != (mesh.onBoundary[p] != 0 ? 3 : 4);
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+  {
+    length += (line[i + 1] - line[i]).norm();
+  }
+  return length;
+}
+
+/// Compares chains with a line.
+class LineComparison
+{
+public:
+  LineComparison(const std::vector<Vector3>& line, double edgeLength)
+    : step_(edgeLength / kLinePlacesAnEdge), edgeLength_(edgeLength), places_(sampled(line)),
+      segments_(line)
+  {
+  }
+
+  double distance(const Vector3& place) const { return segments_.at(place).distance / edgeLength_; }
+
+  void compare(LineInQuads& found) const
+  {
+    const std::pair<double, Vector3> to = farthest(sampled(found.chain), segments_);
+    const std::pair<double, Vector3> back = farthest(places_, NearestSegments(found.chain));
+    std::tie(found.distance, found.place) = to.first < back.first ? back : to;
+    found.distance /= edgeLength_;
+  }
+
+private:
+  /// Its points, and places between them at most a step apart.
+  std::vector<Vector3> sampled(const std::vector<Vector3>& line) const
+  {
+    std::vector<Vector3> places;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    {
+      const Vector3 along = line[i + 1] - line[i];
+      const double parts = std::max(1.0, std::ceil(along.norm() / step_));
+      for (double k = 0; k < parts; ++k)
+      {
+        places.push_back(line[i] + k / parts * along);
+      }
+    }
+    places.push_back(line.back());
+    return places;
+  }
+
+  static std::pair<double, Vector3> farthest(
+    const std::vector<Vector3>& places, const NearestSegments& line)
+  {
+    std::pair<double, Vector3> worst{ -1, Vector3::Zero() };
+    for (const Vector3& p : places)
+    {
+      const double distance = line.at(p).distance;
+      worst = distance > worst.first ? std::pair(distance, p) : worst;
+    }
+    return worst;
+  }
+
+  double step_, edgeLength_;
+  std::vector<Vector3> places_;
+  NearestSegments segments_;
+};
+
+/// Takes what was found where it is better.
+void keepBetter(std::optional<LineInQuads>& best, LineInQuads&& found)
+{
+  const auto rank = [](const LineInQuads& line) { return std::pair(!line.isMet(), line.distance); };
+  if (found.distance <= kMetLine && (!best || rank(found) < rank(*best)))
+  {
+    best = std::move(found);
+  }
 }
 
 } // namespace
@@ -44,95 +117,91 @@ bool isLine(const PlacedConstraint& constraint)
   return constraint.kind == ConstraintKind::Connection || constraint.kind == ConstraintKind::Cycle;
 }
 
-LinesInQuads::LinesInQuads(const QuadMesh& mesh)
-  : mesh_(mesh), chains_(mesh), edgeLength_(meanQuadEdge(mesh))
+LinesInQuads::LinesInQuads(const QuadMesh& mesh, const NearestQuads& nearest)
+  : mesh_(mesh), nearest_(nearest), chains_(mesh), edgeLength_(meanQuadEdge(mesh)),
+    isEnd_(mesh.points.size(), 0)
 {
+  constexpr int kRegularEdges = 4;
+  for (std::size_t p = 0; p < isEnd_.size(); ++p)
+  {
+    isEnd_[p] = mesh.onBoundary[p] != 0 || mesh.valence[p] != kRegularEdges ? 1 : 0;
+  }
+  for (const QuadLine& line : mesh.lines)
+  {
+    isEnd_[line.a] = isEnd_[line.b] = 1;
+  }
 }
 
-std::vector<Vector3> LinesInQuads::chainOf(
-  const PlacedConstraint& constraint, const std::vector<CurveOutcome>& outcomes) const
+std::optional<LineInQuads> LinesInQuads::find(const PlacedConstraint& constraint) const
 {
-  return constraint.curve < outcomes.size() && !mesh_.quads.empty()
-    ? chainOf(constraint, outcomes[constraint.curve])
-    : std::vector<Vector3>{};
+  return constraint.kind == ConstraintKind::Cycle ? findCycle(constraint.path)
+                                                  : findConnection(constraint.path);
 }
 
-std::vector<Vector3> LinesInQuads::chainOf(
-  const PlacedConstraint& constraint, const CurveOutcome& outcome) const
+LineInQuads LinesInQuads::lineOf(const std::vector<Index>& chain) const
 {
-  const double reach = kReachInQuads * edgeLength_;
-  std::vector<Index> chain;
-  if (constraint.kind == ConstraintKind::Cycle)
-  {
-    chain =
-      chains_.closedNear(std::vector<Vector3>(constraint.path.begin(), constraint.path.end() - 1),
-        kReachOfCycle * edgeLength_);
-  }
-  else if (outcome.from != kInvalidIndex)
-  {
-    chain = between(outcome.start, outcome.end, reach);
-  }
-  std::vector<Vector3> points;
-  points.reserve(chain.size());
+  LineInQuads line;
+  line.chain.reserve(chain.size());
   for (const Index p : chain)
   {
-    points.push_back(mesh_.points[p]);
+    line.chain.push_back(mesh_.points[p]);
   }
-  return points;
+  return line;
 }
 
-/// From irregular point to irregular point, or from one to a feature or boundary; a corner of these is a point, too.
-std::vector<Index> LinesInQuads::between(
-  const Vector3& start, const Vector3& end, double reach) const
+double LinesInQuads::lengthAt(const Vector3& place) const
 {
-  const auto candidates = [&](const Vector3& place)
+  const std::optional<NearestQuads::Place> there = nearest_.at(place);
+  return there ? there->edgeLength : 0;
+}
+
+std::optional<LineInQuads> LinesInQuads::findCycle(const std::vector<Vector3>& path) const
+{
+  const LineComparison line(path, edgeLength_);
+  std::optional<LineInQuads> best;
+  for (const std::vector<Index>& chain :
+    chains_.closedNear(std::vector<Vector3>(path.begin(), path.end() - 1), kMetLine * edgeLength_))
   {
-    std::vector<Index> points{ chains_.nearestPoint(place) };
-    const std::optional<Index> irregular = chains_.nearestIrregular(place);
-    if (irregular && (mesh_.points[*irregular] - place).norm() <= reach)
+    LineInQuads found = lineOf(chain);
+    if (lengthOf(found.chain) <= kOnceRound * lengthOf(path))
     {
-      points.insert(points.begin(), *irregular);
+      line.compare(found);
+      keepBetter(best, std::move(found));
     }
-    return points;
-  };
-  for (const Index a : candidates(start))
+  }
+  return best;
+}
+
+std::optional<LineInQuads> LinesInQuads::findConnection(const std::vector<Vector3>& path) const
+{
+  const LineComparison line(path, edgeLength_);
+  const double startLength = lengthAt(path.front());
+  const double endLength = lengthAt(path.back());
+  std::optional<LineInQuads> best;
+  for (Index first = 0; first < mesh_.points.size(); ++first)
   {
-    for (const Index b : candidates(end))
+    const double startOff = (mesh_.points[first] - path.front()).norm() / startLength;
+    if (isEnd_[first] == 0 || !(startOff <= kReachOfEnds))
     {
-      std::vector<Index> chain = chains_.between(a, b);
-      if (!chain.empty())
+      continue;
+    }
+    chains_.followAll(first,
+      [&](const std::vector<Index>& chain)
       {
-        return chain;
-      }
-    }
+        const Vector3& last = mesh_.points[chain.back()];
+        const double endOff = (last - path.back()).norm() / endLength;
+        if (isEnd_[chain.back()] != 0 && endOff <= kReachOfEnds)
+        {
+          LineInQuads found = lineOf(chain);
+          line.compare(found);
+          found.ends = std::max(startOff, endOff);
+          found.end = startOff > endOff ? mesh_.points[first] : last;
+          keepBetter(best, std::move(found));
+        }
+        return chain.back() != first && line.distance(last) <= kMetLine;
+      });
   }
-  for (const auto& [from, to] : { std::pair(start, end), std::pair(end, start) })
-  {
-    const Index a = candidates(from).front();
-    std::vector<Index> chain =
-      isIrregular(mesh_, a) ? chains_.toLine(a, to, reach) : std::vector<Index>{};
-    if (!chain.empty())
-    {
-      return chain;
-    }
-  }
-  return {};
-}
-
-std::pair<double, Vector3> farthestFrom(
-  const std::vector<Vector3>& polyline, const std::vector<Vector3>& chain)
-{
-  std::pair<double, Vector3> worst{ -1, Vector3::Zero() };
-  for (const Vector3& p : chain)
-  {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < polyline.size(); ++i)
-    {
-      least = std::min(least, distanceToSegment(p, polyline[i], polyline[i + 1]));
-    }
-    worst = least > worst.first ? std::pair(least, p) : worst;
-  }
-  return worst;
+  return best;
 }
 
 } // namespace quadrille

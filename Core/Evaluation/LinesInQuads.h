@@ -1,42 +1,63 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What connections and cycles became in the quads: straight chains of edges.
+/// What connections and cycles became in the quads: straight chains of edges. Looked for in the quads alone.
 #pragma once
 
-#include "Integers/CurveIsolines.h"
+#include "Evaluation/QuadPlaces.h"
 #include "Quads/QuadChains.h"
 #include "Requests/DrawnConstraints.h"
 
-#include <utility>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace quadrille
 {
 
+/// Edge lengths of the quad there by which a connection may end beside the end of its line.
+constexpr double kMetEnds = 1;
+/// Mean edge lengths by which chain and line may differ: the chain is straight in the map, the line need not be. The
+/// table tells by how much they do.
+constexpr double kMetLine = 6;
+
 bool isLine(const PlacedConstraint& constraint);
+
+/// A chain, and how it lies to the line that was drawn.
+struct LineInQuads
+{
+  std::vector<Vector3> chain; ///< of a cycle its first point stands at the end again
+  double distance =
+    0; ///< the largest from chain to line or from line to chain, in mean edge lengths
+  Vector3 place = Vector3::Zero(); ///< where that is
+  double ends =
+    0; ///< of a connection: from the chain's end to the line's, in edge lengths; the larger
+  Vector3 end = Vector3::Zero(); ///< of the chain, where that is
+
+  bool isMet() const { return ends <= kMetEnds; }
+};
 
 class LinesInQuads
 {
 public:
-  explicit LinesInQuads(const QuadMesh& mesh);
+  /// Both stay as they are while this is used; nearest: of the mesh.
+  LinesInQuads(const QuadMesh& mesh, const NearestQuads& nearest);
 
-  /// The chain, whatever the map says of it; empty where there is none, or before there are outcomes.
-  std::vector<Vector3> chainOf(
-    const PlacedConstraint& constraint, const std::vector<CurveOutcome>& outcomes) const;
-  std::vector<Vector3> chainOf(
-    const PlacedConstraint& constraint, const CurveOutcome& outcome) const;
-  double edgeLength() const { return edgeLength_; } ///< of the quads, on average
+  /// Of all chains within kMetLine of the line the nearest one, those that are met first. None where there is none.
+  /// A connection runs from a point that is irregular, on a feature or on the boundary to another one, each within
+  /// three edge lengths of its end, and passes regular points only; a cycle closes once round.
+  std::optional<LineInQuads> find(const PlacedConstraint& constraint) const;
 
 private:
-  std::vector<Index> between(const Vector3& start, const Vector3& end, double reach) const;
+  std::optional<LineInQuads> findCycle(const std::vector<Vector3>& path) const;
+  std::optional<LineInQuads> findConnection(const std::vector<Vector3>& path) const;
+  double lengthAt(const Vector3& place) const;
+  LineInQuads lineOf(const std::vector<Index>& chain) const;
 
   const QuadMesh& mesh_;
+  const NearestQuads& nearest_;
   QuadChains chains_;
-  double edgeLength_ = 0;
+  double edgeLength_ = 0;           ///< of the quads, on average
+  std::vector<std::uint8_t> isEnd_; ///< #points: a connection may end there
 };
-
-/// Of the points of a chain the one farthest from a polyline, with its distance.
-std::pair<double, Vector3> farthestFrom(
-  const std::vector<Vector3>& polyline, const std::vector<Vector3>& chain);
 
 } // namespace quadrille

@@ -14,7 +14,7 @@
 #include "Hierarchy/IntermediateLevel.h"
 #include "Hierarchy/LevelTerms.h"
 #include "Hierarchy/LogBuilder.h"
-#include "Hierarchy/StarCache.h"
+#include "Hierarchy/SharedStars.h"
 #include "Hierarchy/UniformDecimation.h"
 #include "Hierarchy/VertexScales.h"
 #include "Mesh/Sizing.h"
@@ -46,7 +46,6 @@ BudgetOptions budgetOptions(const Level& level, const HierarchyOptions& options)
   {
     budget.keepVertices.push_back(*positionIn(level, v));
   }
-  budget.names = &level.fineVertex; // which are the same on the level that vertices came back to
   budget.curveTolerance = kCurveTolerance * options.targetEdgeLength;
   budget.regionTolerance = kRegionTolerance * options.targetEdgeLength;
   budget.threads = options.threads;
@@ -93,8 +92,12 @@ class Redecimation::Implementation
 {
 public:
   Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
-    : intermediate_(fine, fineHash, options, hierarchy_)
+    : intermediate_(fine, fineHash, options, hierarchy_), stars_(options.stars)
   {
+    if (!stars_)
+    {
+      stars_ = std::make_shared<SharedStars>(fine.vertexCount());
+    }
   }
 
   IntermediateLevel& intermediate() { return intermediate_; }
@@ -109,7 +112,7 @@ public:
     const HierarchyOptions& options)
   {
     fineDefect_.clear();
-    cache_.clear();
+    stars_ = std::make_shared<SharedStars>(fine.vertexCount());
     return intermediate_.follow(fine, fineHash, names, options);
   }
 
@@ -122,11 +125,6 @@ public:
     std::vector<Index> kept = options.keepVertices;
     sortUnique(kept);
     intermediate_.put(kept, options);
-    if (cost_ != options.cost)
-    {
-      cache_.clear();
-      cost_ = options.cost;
-    }
     intermediate_.dropCoarse();
     intermediate_.carryGuides(options);
     decimate(options);
@@ -140,6 +138,8 @@ private:
     const Level& level = hierarchy_.intermediate;
     DecimationMesh mesh(intermediate_.mesh());
     BudgetOptions budget = budgetOptions(level, options);
+    const std::vector<Index> names = stars_->namesOf(level);
+    budget.names = &names; // which are the same on the level that vertices came back to
     if (options.cost == DecimationCost::GaussianMemory)
     {
       budget.inputDefect = inputDefects(level);
@@ -151,7 +151,7 @@ private:
       budget.keepVertices.insert(budget.keepVertices.end(), corners.begin(), corners.end());
     }
     thinOutFurther(level, options.mostOrdered, budget, mesh, hierarchy_.log);
-    BudgetResult result = decimateToBudget(mesh, budget, cache_);
+    BudgetResult result = decimateToBudget(mesh, budget, stars_->cacheFor(options.cost));
     hierarchy_.notice = std::move(result.notice);
     hierarchy_.cache = result.cache;
     hierarchy_.curvatureShift = result.curvatureShift / options.targetEdgeLength;
@@ -177,9 +177,8 @@ private:
 
   Hierarchy hierarchy_;
   IntermediateLevel intermediate_;
-  std::vector<float> fineDefect_;                  ///< for GaussianMemory, when first needed
-  DecimationCost cost_ = DecimationCost::Gaussian; ///< that the cache was filled with
-  StarCache cache_;
+  std::vector<float> fineDefect_; ///< for GaussianMemory, when first needed
+  std::shared_ptr<SharedStars> stars_;
 };
 
 Redecimation::Redecimation(

@@ -34,6 +34,8 @@ constexpr double kCurvatureShift = 0.5;
 constexpr Index kLeastCoarseVertices = 300;
 constexpr Index kMostCoarseVertices = 4000;
 
+class SharedStars;
+
 struct HierarchyOptions
 {
   double targetEdgeLength =
@@ -57,6 +59,8 @@ struct HierarchyOptions
   bool isRough = false;
   /// The finest mesh is known to have one component, which saves looking for small ones; the result is the same.
   bool isConnected = false;
+  /// For Redecimation: where it remembers what removals cost, with others of the same s. Null: it alone.
+  std::shared_ptr<SharedStars> stars;
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };

@@ -257,6 +257,7 @@ struct SurfaceRequests
   std::vector<CurveRequest> curves;            ///< as they were given, in the frame
   bool regularElsewhere = false;               ///< as it was given
   bool localSizes = false; ///< sizes are asked for at places or in regions, see CrossFieldOptions
+  std::vector<SizeRequest> sizes;            ///< as they were given, in the frame
   std::vector<SectorRequest> sectorRequests; ///< ascending by vertex
   bool regularOnFeatures = false;            ///< as it was given
   std::vector<SeamRequest> seams;            ///< as they were given, in the frame

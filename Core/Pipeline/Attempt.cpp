@@ -266,6 +266,11 @@ RunContext makeRun(const SizedSurface& sized, const RemeshOptions& options, Resu
 {
   RunContext run{ options, sized.edgeLength, sized.targetQuads,
     withoutPlan(sized.surface, sized.key), store, Levels(store) };
+  if (sized.starsKey != 0)
+  {
+    run.surface.starsKey = sized.starsKey;
+    run.surface.sharedVertices = sized.sharedVertices;
+  }
   if (options.progress)
   {
     run.options.progress = [tried = run.tried, asked = options.progress](

@@ -74,12 +74,12 @@ void drawOn(PreparedSurface& surface, const SurfaceInput& input, double edgeLeng
   noteAdded(surface, before, threads, notices);
 }
 
-bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
+AddedVertices drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
   double edgeLength, int threads, std::vector<std::string>& notices)
 {
   if (valences.empty())
   {
-    return false;
+    return AddedVertices::None;
   }
   const Index before = surface.mesh.vertexCount();
   const InsertedValences inserted = insertValences(surface, valences, { edgeLength, threads });
@@ -90,10 +90,10 @@ bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& val
   }
   if (surface.mesh.vertexCount() == before)
   {
-    return false;
+    return AddedVertices::None;
   }
   noteAdded(surface, before, threads, notices);
-  return true;
+  return inserted.splitConstraint ? AddedVertices::OnFeatures : AddedVertices::InFaces;
 }
 
 } // namespace quadrille

@@ -22,8 +22,16 @@ ResultKey drawnKey(ResultKey prepared, const SurfaceInput& input, double edgeLen
 void drawOn(PreparedSurface& surface, const SurfaceInput& input, double edgeLength, int threads,
   std::vector<std::string>& notices);
 
-/// Valences at places, on the triangles as they are to stay. Whether these have changed.
-bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
+/// Where vertices were added to the triangles.
+enum class AddedVertices
+{
+  None,
+  InFaces,   ///< and on edges that are no features
+  OnFeatures ///< there, too
+};
+
+/// Valences at places, on the triangles as they are to stay.
+AddedVertices drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
   double edgeLength, int threads, std::vector<std::string>& notices);
 
 } // namespace quadrille

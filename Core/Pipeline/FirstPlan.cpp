@@ -5,6 +5,7 @@
 #include "Base/PlaceText.h"
 #include "Mesh/Sizing.h"
 #include "Requests/Guides.h"
+#include "Requests/VerticesForSizes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,11 +111,30 @@ double quadsFor(const RunContext& run, const Plan& plan, double sizedArea)
   return static_cast<double>(run.targetQuads) * std::pow(2.0, finer.doublings) * local;
 }
 
+LevelPlan firstLevels(const RunContext& run)
+{
+  LevelPlan levels;
+  levels.keptVertices = keptVertices(*run.surface);
+  levels.coarseVertices = run.options.coarseVertices;
+  const std::vector<Index> forSizes = verticesForSizes(*run.surface, run.edgeLength);
+  if (!forSizes.empty())
+  {
+    std::vector<Index>& kept = levels.keptVertices;
+    const std::size_t before = kept.size();
+    kept.insert(kept.end(), forSizes.begin(), forSizes.end());
+    std::sort(kept.begin(), kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    // Not fewer elsewhere because of these; 0 is as many as the curvature needs.
+    levels.coarseVertices +=
+      levels.coarseVertices == 0 ? 0 : static_cast<Index>(kept.size() - before);
+  }
+  return levels;
+}
+
 Plan firstPlan(RunContext& run)
 {
   Plan plan;
-  plan.levels.keptVertices = keptVertices(*run.surface);
-  plan.levels.coarseVertices = run.options.coarseVertices;
+  plan.levels = firstLevels(run);
   plan.nextLevels = plan.levels;
   plan.quads = quadsFor(run, plan, 0);
   const std::vector<HandleLoop>& loops = run.shortLoops.loops;

@@ -19,6 +19,9 @@ constexpr double kMostGrowth = 1.6;
 /// RemeshOptions::smallDetails may want it whatever it takes, up to the limit of quads, or never.
 Plan firstPlan(RunContext& run);
 
+/// The levels that it begins with, and another beginning, too.
+LevelPlan firstLevels(const RunContext& run);
+
 /// Whether the first plan had smaller quads round these short loops; true where there is none. most: how many times as
 /// many quads they may make, beside the bound that the plan has.
 bool resolvesLoops(const RunContext& run, const std::vector<HandleLoop>& loops,

@@ -3,6 +3,7 @@
 #include "Pipeline/Levels.h"
 
 #include "Base/Memory.h"
+#include "Hierarchy/SharedStars.h"
 #include "Transfer/SurfaceStretch.h"
 
 #include <utility>
@@ -40,8 +41,9 @@ bool isPlain(const PlannedSurface& surface, const HierarchyOptions& options)
 std::size_t StoredLevels::bytes() const
 {
   const Hierarchy& hierarchy = levels->hierarchy();
-  return hierarchy.log.recordBytes() + hierarchy.cache.bytes + bytesOf(hierarchy.coarse.mesh) +
-    2 * bytesOf(hierarchy.intermediate.mesh) + levels->bytesAside();
+  return hierarchy.log.recordBytes() + (stars ? 0 : hierarchy.cache.bytes) +
+    bytesOf(hierarchy.coarse.mesh) + 2 * bytesOf(hierarchy.intermediate.mesh) +
+    levels->bytesAside();
 }
 
 bool Levels::recall(ResultKey wanted)
@@ -69,7 +71,18 @@ void Levels::decimate(
   letGo(); // before the new ones take their memory
   ++decimations_;
   auto made = std::make_shared<StoredLevels>(); // what is stopped on the way is not held
-  made->levels = std::make_unique<Redecimation>(mesh, surface->hash, options);
+  HierarchyOptions withStars = options;
+  if (store_ != nullptr)
+  {
+    made->starsKey = KeyMaker(surface.starsKey).add(options.targetEdgeLength).key();
+    made->stars = store_->find<SharedStars>(made->starsKey);
+    if (!made->stars)
+    {
+      made->stars = std::make_shared<SharedStars>(surface.sharedVertices);
+    }
+    withStars.stars = made->stars;
+  }
+  made->levels = std::make_unique<Redecimation>(mesh, surface->hash, withStars);
   held_ = std::move(made);
   heldKey_ = key;
   releaseFreedMemory();
@@ -185,6 +198,10 @@ void Levels::letGo()
   if (held_ && store_ != nullptr)
   {
     const std::size_t bytes = held_->bytes();
+    if (held_->stars)
+    {
+      store_->put(held_->starsKey, held_->stars, held_->stars->bytes());
+    }
     store_->put(heldKey_, std::move(held_), bytes);
   }
   else if (held_)

@@ -20,6 +20,8 @@ struct StoredLevels
 {
   std::unique_ptr<Redecimation> levels;
   ResultKey made = 0; ///< of the options of phase 2, when the coarse level was made last
+  std::shared_ptr<SharedStars> stars; ///< that lie in the store beside it; null: none
+  ResultKey starsKey = 0;
 
   std::size_t bytes() const;
 };

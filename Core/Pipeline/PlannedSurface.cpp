@@ -63,7 +63,8 @@ double areaOverSizes(const PreparedSurface& surface, const std::vector<float>& s
 PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, ResultKey key)
 {
   const SharedArray<float> sizes = surface->mesh.sizing;
-  return { std::move(surface), key, key, sizes };
+  const Index vertices = surface->mesh.vertexCount();
+  return { std::move(surface), key, key, sizes, key, vertices };
 }
 
 PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int threads)
@@ -75,16 +76,19 @@ PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int thr
   PreparedSurface planned = *surface;
   Mesh& mesh = planned.mesh;
   KeyMaker key(surface.key);
+  KeyMaker stars(surface.starsKey);
   if (plan.moved)
   {
     markYielding(mesh, plan.moved->on);
     unmarkFeatures(mesh, plan.moved->off);
     key.add(plan.moved->off, plan.moved->on);
+    stars.add(plan.moved->off, plan.moved->on);
   }
   if (plan.featuresGivenUp)
   {
     unmarkFeatures(mesh, *plan.featuresGivenUp);
     key.add(*plan.featuresGivenUp);
+    stars.add(*plan.featuresGivenUp);
   }
   if (plan.moved || plan.featuresGivenUp)
   {
@@ -97,7 +101,7 @@ PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int thr
     key.add(*plan.sizes);
   }
   return { std::make_shared<const PreparedSurface>(std::move(planned)), key.key(), keyWithoutSizes,
-    surface.sizesBefore };
+    surface.sizesBefore, stars.key(), surface.sharedVertices };
 }
 
 } // namespace quadrille

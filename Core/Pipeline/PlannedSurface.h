@@ -28,6 +28,10 @@ struct PlannedSurface
   ResultKey key = 0;              ///< guides and valences left aside
   ResultKey keyWithoutSizes = 0;  ///< as if the plan had no sizes
   SharedArray<float> sizesBefore; ///< those without the plan
+  /// Of the surface to which vertices were added without a change of shape or features, and how many it has; its own
+  /// where none were.
+  ResultKey starsKey = 0;
+  Index sharedVertices = 0;
 
   const PreparedSurface& operator*() const { return *surface; }
   const PreparedSurface* operator->() const { return surface.get(); }

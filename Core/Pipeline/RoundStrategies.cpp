@@ -134,9 +134,7 @@ Plan fromTheBeginning(const RunContext& run, const Plan& before)
   Plan plan = withoutShrinks(before);
   forget({ Try::MoreFreedom, Try::KeptDefects, Try::RoomForCurves, Try::MoreQuads }, plan);
   plan.finer = {};
-  plan.levels = {};
-  plan.levels.keptVertices = keptVertices(*run.surface);
-  plan.levels.coarseVertices = run.options.coarseVertices;
+  plan.levels = firstLevels(run);
   plan.nextLevels = plan.levels;
   plan.quads = quadsFor(run, plan, 0);
   return plan;

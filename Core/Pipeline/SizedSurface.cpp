@@ -419,10 +419,19 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
       keepSized(std::move(stored), prepared.key, surface, options, *store, sized);
     }
   }
-  if (sized.status.ok() &&
-    drawValences(surface, input.drawn.valences, sized.edgeLength, options.threads, sized.notices))
+  sized.starsKey = sized.key;
+  sized.sharedVertices = surface.mesh.vertexCount();
+  if (sized.status.ok())
   {
-    sized.key = KeyMaker(sized.key).add(surface.hash).key();
+    const AddedVertices added =
+      drawValences(surface, input.drawn.valences, sized.edgeLength, options.threads, sized.notices);
+    sized.key =
+      added == AddedVertices::None ? sized.key : KeyMaker(sized.key).add(surface.hash).key();
+    if (added == AddedVertices::OnFeatures)
+    {
+      sized.starsKey = sized.key;
+      sized.sharedVertices = surface.mesh.vertexCount();
+    }
   }
   input = {};
   return finished(std::move(surface), options, store, std::move(sized));

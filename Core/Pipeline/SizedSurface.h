@@ -34,7 +34,9 @@ struct SizedSurface : SizeReport
 {
   Status status; ///< TooLarge where more quads would be made than may
   std::shared_ptr<const PreparedSurface> surface;
-  ResultKey key = 0; ///< of all but guides and valences
+  ResultKey key = 0;        ///< of all but guides and valences
+  ResultKey starsKey = 0;   ///< see PlannedSurface
+  Index sharedVertices = 0; ///< the same
   /// Components that become the smallest blocks of quads, and a word on them, see countBlocks.
   std::vector<SmallDetail> blocks;
   std::string blocksNotice;

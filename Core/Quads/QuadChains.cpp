@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace quadrille
 {
@@ -75,24 +76,6 @@ bool QuadChains::isPassed(Index point) const
   return quads_.onBoundary[point] == 0 && quads_.valence[point] == kRegularEdges;
 }
 
-/// Goes along each chain that leaves a and calls visit(chain) at each of its points, which says whether to go on;
-/// chains pass regular points only.
-template <typename Visit>
-void QuadChains::followAll(Index a, Visit visit) const
-{
-  for (const Index* first = leaving_.begin(a); first != leaving_.end(a); ++first)
-  {
-    std::vector<Index> chain{ a };
-    std::optional<Index> h = *first;
-    while (h && chain.size() <= quads_.points.size())
-    {
-      chain.push_back(end(*h));
-      const bool goesOn = visit(chain) && isPassed(chain.back());
-      h = goesOn ? straightOn(*h, ChainSide::Left) : std::nullopt;
-    }
-  }
-}
-
 std::vector<Index> QuadChains::between(Index a, Index b) const
 {
   std::vector<Index> best;
@@ -107,27 +90,6 @@ std::vector<Index> QuadChains::between(Index a, Index b) const
       return !arrives;
     });
   return best;
-}
-
-std::vector<Index> QuadChains::toLine(Index a, const Vector3& place, double distance) const
-{
-  std::vector<std::uint8_t> onLine(quads_.points.size(), 0);
-  for (const QuadLine& line : quads_.lines)
-  {
-    onLine[line.a] = onLine[line.b] = 1;
-  }
-  std::vector<Index> first;
-  followAll(a,
-    [&](const std::vector<Index>& chain)
-    {
-      const bool arrives = onLine[chain.back()] != 0;
-      if (arrives && first.empty() && (quads_.points[chain.back()] - place).norm() <= distance)
-      {
-        first = chain;
-      }
-      return !arrives;
-    });
-  return first;
 }
 
 /// Empty unless it comes back to where it began and passes points near the line alone. What it passes is marked: from
@@ -146,7 +108,7 @@ std::vector<Index> QuadChains::closedFrom(Index first, ChainSide side,
   return h == first ? chain : std::vector<Index>{};
 }
 
-std::vector<Index> QuadChains::closedNear(
+std::vector<std::vector<Index>> QuadChains::closedNear(
   const std::vector<Vector3>& polyline, double distance) const
 {
   std::vector<double> away(quads_.points.size());
@@ -154,18 +116,7 @@ std::vector<Index> QuadChains::closedNear(
   {
     away[p] = distanceToLoop(polyline, quads_.points[p]);
   }
-  // A short loop beside a part of the polyline is not what goes round it.
-  const auto comesBy = [&](const std::vector<Index>& chain)
-  {
-    return std::all_of(polyline.begin(), polyline.end(),
-      [&](const Vector3& corner)
-      {
-        return std::any_of(chain.begin(), chain.end(),
-          [&](Index p) { return (quads_.points[p] - corner).norm() <= distance; });
-      });
-  };
-  std::vector<Index> best;
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::vector<Index>> chains;
   for (const ChainSide side : { ChainSide::Left, ChainSide::Right })
   {
     std::vector<std::uint8_t> passed(twin_.size(), 0);
@@ -175,38 +126,14 @@ std::vector<Index> QuadChains::closedNear(
       {
         continue;
       }
-      const std::vector<Index> chain = closedFrom(h, side, away, distance, passed);
-      double sum = 0;
-      for (const Index p : chain)
+      std::vector<Index> chain = closedFrom(h, side, away, distance, passed);
+      if (!chain.empty())
       {
-        sum += away[p];
-      }
-      const double mean = chain.empty() ? least : sum / static_cast<double>(chain.size());
-      if (mean < least && comesBy(chain))
-      {
-        least = mean;
-        best = chain;
+        chains.push_back(std::move(chain));
       }
     }
   }
-  return best;
-}
-
-std::optional<Index> QuadChains::nearestIrregular(const Vector3& place) const
-{
-  std::optional<Index> best;
-  for (Index p = 0; p < quads_.points.size(); ++p)
-  {
-    const bool isIrregular =
-      quads_.valence[p] != kRegularEdges - (quads_.onBoundary[p] != 0 ? 1 : 0);
-    if (isIrregular &&
-      (!best ||
-        (quads_.points[p] - place).squaredNorm() < (quads_.points[*best] - place).squaredNorm()))
-    {
-      best = p;
-    }
-  }
-  return best;
+  return chains;
 }
 
 Index QuadChains::nearestPoint(const Vector3& place) const

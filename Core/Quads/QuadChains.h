@@ -33,23 +33,20 @@ public:
   /// Points of the chain that leaves a and passes regular vertices only, up to b. The shortest of several; empty where
   /// none leads there.
   std::vector<Index> between(Index a, Index b) const;
-  /// The chain from a to the first point of the boundary or of a feature (of the mesh's lines) that lies within the
-  /// distance from the place; empty where there is none.
-  std::vector<Index> toLine(Index a, const Vector3& place, double distance) const;
-  /// A closed chain, straight on one side everywhere, whose points all lie within the distance from the closed
-  /// polyline, and that comes as near to each of its corners; the first one stands at the end again. The nearest on
-  /// average; empty where there is none.
-  std::vector<Index> closedNear(const std::vector<Vector3>& polyline, double distance) const;
+  /// Goes along each chain that leaves a and calls visit(chain) at each of its points, which says whether to go on;
+  /// chains pass regular points only.
+  template <typename Visit>
+  void followAll(Index a, Visit visit) const;
+  /// Closed chains, straight on one side everywhere, whose points all lie within the distance from the closed polyline;
+  /// the first point stands at the end again.
+  std::vector<std::vector<Index>> closedNear(
+    const std::vector<Vector3>& polyline, double distance) const;
   /// The point nearest to a place.
   Index nearestPoint(const Vector3& place) const;
-  /// The irregular point nearest to a place, which smoothing may have moved; none where there is none.
-  std::optional<Index> nearestIrregular(const Vector3& place) const;
 
 private:
   std::optional<Index> straightOn(Index h, ChainSide side) const;
   bool isPassed(Index point) const;
-  template <typename Visit>
-  void followAll(Index a, Visit visit) const;
   Index end(Index h) const;
   std::vector<Index> closedFrom(Index first, ChainSide side, const std::vector<double>& away,
     double distance, std::vector<std::uint8_t>& passed) const;
@@ -58,5 +55,21 @@ private:
   std::vector<Index> twin_; ///< #H, see QuadMesh.h
   Grouped<> leaving_;       ///< half-edges by the point that they leave
 };
+
+template <typename Visit>
+void QuadChains::followAll(Index a, Visit visit) const
+{
+  for (const Index* first = leaving_.begin(a); first != leaving_.end(a); ++first)
+  {
+    std::vector<Index> chain{ a };
+    std::optional<Index> h = *first;
+    while (h && chain.size() <= quads_.points.size())
+    {
+      chain.push_back(end(*h));
+      const bool goesOn = visit(chain) && isPassed(chain.back());
+      h = goesOn ? straightOn(*h, ChainSide::Left) : std::nullopt;
+    }
+  }
+}
 
 } // namespace quadrille

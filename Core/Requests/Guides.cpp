@@ -179,6 +179,7 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int th
   surface.strokeFaces.clear();
   surface.curves = input.curves;
   surface.regularElsewhere = input.regularElsewhere;
+  surface.sizes = input.drawn.sizes;
   surface.localSizes = !input.drawn.sizes.empty() || !input.sizingOrders.empty();
   surface.regularOnFeatures = input.regularOnFeatures;
   surface.seams = input.seams;

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -42,10 +43,12 @@ public:
   /// A vertex for each point, in their order.
   std::vector<Index> vertices(const std::vector<Vector3>& points)
   {
+    const std::vector<Index> near = halfEdgesNear(points);
     std::vector<Index> result;
     for (const MeshPlace& place : placesOnMesh(mesh_, points, threads_))
     {
-      result.push_back(vertexAt(place));
+      const Index h = near[result.size()];
+      result.push_back(h == kInvalidIndex ? vertexAt(place) : take(h));
     }
     return result;
   }
@@ -194,6 +197,35 @@ private:
       }
     }
     return longest;
+  }
+
+  /// For each point a half-edge that leaves the vertex which takes it; kInvalidIndex: none does. Where parts of the
+  /// surface touch, the vertex may lie on one and the nearest face on another.
+  std::vector<Index> halfEdgesNear(const std::vector<Vector3>& points) const
+  {
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+      [&](std::size_t a, std::size_t b) { return points[a].x() < points[b].x(); });
+    const double reach = kTaken * s_;
+    std::vector<Index> near(points.size(), kInvalidIndex);
+    std::vector<double> least(points.size(), reach);
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      const Vector3& p = mesh_.position[mesh_.origin[h]];
+      auto at = std::lower_bound(order.begin(), order.end(), p.x() - reach,
+        [&](std::size_t i, double x) { return points[i].x() < x; });
+      for (; at != order.end() && points[*at].x() <= p.x() + reach; ++at)
+      {
+        const double distance = (points[*at] - p).norm();
+        if (distance < least[*at] || (near[*at] == kInvalidIndex && distance == least[*at]))
+        {
+          near[*at] = h;
+          least[*at] = distance;
+        }
+      }
+    }
+    return near;
   }
 
   MeshPlace placeOf(Index v) { return { Mesh::face(halfEdgeFrom(v)), mesh_.position[v] }; }

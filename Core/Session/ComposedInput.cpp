@@ -5,6 +5,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "Session/IrregularEdits.h"
+#include "Session/IrregularMatch.h"
 
 #include <algorithm>
 
@@ -327,6 +328,7 @@ private:
   /// Those that operations lead to, and the others that are asked for.
   void setIrregular()
   {
+    composed_.shown = list_.shown();
     composed_.irregular = list_.irregular();
     std::vector<IrregularVertex>& all = composed_.irregular;
     all.erase(std::remove_if(all.begin(), all.end(),
@@ -342,6 +344,10 @@ private:
       {
         all.push_back({ asked.place, asked.valence });
       }
+      if (composed_.shown && valenceInList(asked) != asked.valence)
+      {
+        change(*composed_.shown, { asked.place, valenceInList(asked), asked.valence });
+      }
     }
     std::sort(all.begin(), all.end(),
       [](const IrregularVertex& a, const IrregularVertex& b)
@@ -353,15 +359,7 @@ private:
   void hold(bool onFeatures)
   {
     SurfaceInput& input = composed_.input;
-    if (composed_.symmetry)
-    {
-      return;
-    }
-    if (onFeatures)
-    {
-      composed_.onFeatures = list_.onFeatures();
-    }
-    if (onFeatures && holdFeatures_)
+    if (onFeatures && holdFeatures_ && !composed_.symmetry)
     {
       input.held.insert(input.held.end(), list_.onFeatures().begin(), list_.onFeatures().end());
       input.regularOnFeatures = true;

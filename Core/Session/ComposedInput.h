@@ -40,9 +40,9 @@ struct ComposedInput
   /// its id.
   std::vector<IrregularVertex> irregular;
   int lastOperation = 0; ///< 0: none
-  /// Vertices on features and boundaries that these should leave as they are all, and why that was not possible. None
-  /// where features are free.
-  std::optional<std::vector<HeldVertex>> onFeatures;
+  /// Irregular points of the quads that these lead to; none: not known.
+  std::optional<std::vector<IrregularVertex>> shown;
+  /// Why vertices on features and boundaries could not be left as they are all; empty: they were, or are free.
   std::string whyNotHeld;
   std::vector<std::string> notices; ///< what the user should know
 };

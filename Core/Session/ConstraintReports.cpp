@@ -18,7 +18,7 @@ namespace quadrille
 namespace
 {
 
-/// Edge lengths within which a vertex is the one that was meant.
+/// Edge lengths of the quads there within which other irregular points may move.
 constexpr double kReachOfOperation = 2;
 
 /// Places at most at which it is looked whether a later constraint counts.
@@ -36,9 +36,8 @@ public:
     const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
     const SessionResult& result, const SymmetricResult* symmetric, bool isOfNumber)
     : surface_(surface), places_(places), constraints_(constraints), composed_(composed),
-      quads_(made.quads), curves_(made.curves), irregular_(result.irregular),
-      onFeatures_(result.onFeatures), targetEdgeLength_(made.targetEdgeLength),
-      madeEdgeLength_(made.targetEdgeLength), symmetric_(symmetric), measures_(made.quads)
+      quads_(made.quads), curves_(made.curves), madeEdgeLength_(made.targetEdgeLength),
+      symmetric_(symmetric), measures_(made.quads)
   {
     if (isOfNumber && !quads_.quads.empty())
     {
@@ -100,7 +99,8 @@ private:
   std::string whoCounts(const std::vector<WeightedPlace>& places, bool isSize);
   using Cover = std::function<bool(const Vector3&)>;
   Cover coverOf(std::size_t i);
-  const IrregularMatch& irregularMatch();
+  /// Within which an irregular point is where it was.
+  double reachAt(const Vector3& place) { return kReachOfOperation * measures_.edgeLengthAt(place); }
 
   ConstraintMeasure measureOf(const SessionConstraint& constraint)
   {
@@ -154,13 +154,9 @@ private:
   const ComposedInput& composed_;
   const QuadMesh& quads_;
   const std::vector<CurveOutcome>& curves_;
-  const std::vector<IrregularVertex>& irregular_;
-  const std::vector<HeldVertex>& onFeatures_;
-  double targetEdgeLength_;
   double madeEdgeLength_;            ///< of quads of size 1, by how many there are
   const SymmetricResult* symmetric_; ///< null: the quads were not made so
   ConstraintMeasures measures_;
-  std::optional<IrregularMatch> match_; ///< made when it is needed first
   std::size_t mostPlaces_ = 0;
   const PlacedPart* part_ = nullptr;
   std::size_t at_ = 0; ///< of the constraint
@@ -194,7 +190,7 @@ ConstraintMeasure SessionJudge::irregularEdit()
                       "it at the mirror image";
   }
   if (constraints_[at_]->id == composed_.lastOperation && symmetric_ == nullptr &&
-    composed_.input.regularElsewhere)
+    composed_.input.regularElsewhere && composed_.shown)
   {
     const std::vector<Vector3> others = otherChanges();
     if (!others.empty())
@@ -211,25 +207,22 @@ ConstraintMeasure SessionJudge::irregularEdit()
   return measure;
 }
 
-/// Places where irregular vertices came, went or moved though no constraint asks for it.
+/// Places where irregular points of the quads came, went or moved though no constraint asks for it.
 std::vector<Vector3> SessionJudge::otherChanges()
 {
-  const IrregularMatch& match = irregularMatch();
-  const double reach = kReachOfOperation * targetEdgeLength_;
-  const auto isNear = [&](const std::vector<Vector3>& all, const Vector3& p, double distance)
+  const auto isNear = [](const std::vector<Vector3>& all, const Vector3& p, double distance)
   {
     return std::any_of(
       all.begin(), all.end(), [&](const Vector3& q) { return (p - q).norm() <= distance; });
   };
   std::vector<Vector3> told;   // of vertices with a word of their own
   std::vector<Vector3> failed; // where that says what is there instead
-  std::vector<Vector3> drawn;  // on features
+  std::vector<Vector3> drawn;  // features that came later: these have ends, and corners with others
   bool isLater = false;
   for (std::size_t i = 0; i < constraints_.size(); ++i)
   {
     const PlacedPart& part = composed_.parts[i];
     isLater = isLater || constraints_[i]->id == composed_.lastOperation;
-    // A feature has ends, and corners with others.
     if (isLater && std::holds_alternative<FeatureLine>(constraints_[i]->content))
     {
       drawn.insert(drawn.end(), part.path.begin(), part.path.end());
@@ -245,45 +238,34 @@ std::vector<Vector3> SessionJudge::otherChanges()
     if (std::holds_alternative<ValenceAt>(constraints_[i]->content))
     {
       told.push_back(part.place);
-      drawn.push_back(part.place);
     }
   }
-  std::vector<Vector3> places;
-  for (std::size_t i = 0; i < composed_.irregular.size(); ++i)
+  const std::vector<IrregularVertex>& expected = *composed_.shown;
+  std::vector<double> reach;
+  for (const IrregularVertex& vertex : expected)
   {
-    const Vector3& place = composed_.irregular[i].place;
-    if (!match.actual[i] && !isNear(told, place, 0))
+    reach.push_back(reachAt(vertex.place));
+  }
+  const std::vector<IrregularVertex> actual = irregularPoints(quads_);
+  const IrregularMatch match = matchIrregular(expected, actual, reach);
+  std::vector<Vector3> places;
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    const Vector3& place = expected[i].place;
+    if (!match.actual[i] && !isNear(told, place, 0) && !isNear(drawn, place, reach[i]))
     {
       places.push_back(place);
     }
   }
   for (const std::size_t k : match.unexpected)
   {
-    if (!isNear(failed, irregular_[k].place, reach))
+    const Vector3& place = actual[k].place;
+    if (!isNear(failed, place, reachAt(place)) && !isNear(drawn, place, reachAt(place)))
     {
-      places.push_back(irregular_[k].place);
-    }
-  }
-  if (composed_.onFeatures)
-  {
-    for (const Vector3& p : differencesOnFeatures(*composed_.onFeatures, onFeatures_, reach))
-    {
-      if (!isNear(drawn, p, reach))
-      {
-        places.push_back(p);
-      }
+      places.push_back(place);
     }
   }
   return places;
-}
-
-const IrregularMatch& SessionJudge::irregularMatch()
-{
-  if (!match_)
-  {
-    match_ = matchIrregular(composed_.irregular, irregular_, kReachOfOperation * targetEdgeLength_);
-  }
-  return *match_;
 }
 
 /// Connectivity is symmetric whenever there are quads, so that it is the surface that deviates; where its two sides

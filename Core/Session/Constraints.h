@@ -70,7 +70,7 @@ struct PlaceOrder
   }
 };
 
-/// An irregular vertex inside of the surface, off its features. Its place names it.
+/// An irregular vertex; those that operations take are inside of the surface, off its features. Its place names it.
 struct IrregularVertex
 {
   Vector3 place = Vector3::Zero();
@@ -123,6 +123,8 @@ struct IrregularEdit
   std::vector<Link> upon;              ///< in their order
   /// Ends, corners and bends of features and boundaries then, ascending by point.
   std::vector<HeldVertex> onFeatures = {};
+  /// All irregular points that the quads had then, see irregularPoints: what a user saw. Files of version 1 have none.
+  std::vector<IrregularVertex> shown = {};
 };
 
 /// A chain of edges of quads, straight in the map, that joins two irregular vertices, features or boundaries.

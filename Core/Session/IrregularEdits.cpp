@@ -6,6 +6,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "Mesh/Distance.h"
+#include "Session/IrregularMatch.h"
 
 #include <algorithm>
 #include <array>
@@ -325,6 +326,14 @@ void resolveEdit(IrregularEdit& edit, const std::string& name, const PlacesOfEdi
 std::string IrregularList::apply(int id, int revision, const IrregularEdit& edit)
 {
   std::map<Vector3, int, PlaceOrder> valences = valences_;
+  std::optional<std::vector<IrregularVertex>> shown = shown_;
+  const auto show = [&shown](const IrregularEdit::Change& made)
+  {
+    if (shown)
+    {
+      quadrille::change(*shown, made);
+    }
+  };
   const bool takesOwn = edit.upon == links_ || !isInForce_;
   if (takesOwn)
   {
@@ -336,12 +345,15 @@ std::string IrregularList::apply(int id, int revision, const IrregularEdit& edit
     {
       valences[vertex.place] = vertex.valence;
     }
+    const bool isKnown = !edit.shown.empty() || edit.before.empty();
+    shown = isKnown ? std::optional(edit.shown) : std::nullopt;
   }
   for (std::size_t i = takesOwn && !(edit.upon == links_) ? edit.upon.size() : 0; i-- > 0;)
   {
     for (const IrregularEdit::Change& change : edit.upon[i].changes)
     {
       valences[change.place] = change.before;
+      show({ change.place, change.after, change.before });
     }
   }
   for (const IrregularEdit::Change& change : edit.changes)
@@ -354,12 +366,14 @@ std::string IrregularList::apply(int id, int revision, const IrregularEdit& edit
         "the valence there is " + std::to_string(there) + ": remove it, or make it anew";
     }
     valences[change.place] = change.after;
+    show(change);
   }
   for (const IrregularEdit::Change& change : edit.changes)
   {
     changedBy_[change.place] = id;
   }
   valences_ = std::move(valences);
+  shown_ = std::move(shown);
   if (takesOwn)
   {
     onFeatures_ = edit.onFeatures;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,8 @@ public:
   std::vector<IrregularVertex> irregular() const;
   /// Those on features and boundaries, of the last operation that brought its own list.
   const std::vector<HeldVertex>& onFeatures() const { return onFeatures_; }
+  /// The points of the quads that are irregular then, see IrregularEdit::shown; none: not known.
+  const std::optional<std::vector<IrregularVertex>>& shown() const { return shown_; }
   /// The operation in force that changed the place last; 0: none.
   int changedBy(const Vector3& place) const;
   /// The operations in force.
@@ -90,6 +93,7 @@ private:
   std::map<Vector3, int, PlaceOrder> valences_;
   std::map<Vector3, int, PlaceOrder> changedBy_;
   std::vector<HeldVertex> onFeatures_;
+  std::optional<std::vector<IrregularVertex>> shown_;
   std::vector<IrregularEdit::Link> links_;
 };
 

@@ -25,7 +25,7 @@ struct IrregularPair
 
 /// All pairs within reach, by a sweep along x.
 std::vector<IrregularPair> pairsWithin(const std::vector<IrregularVertex>& expected,
-  const std::vector<IrregularVertex>& actual, double reach)
+  const std::vector<IrregularVertex>& actual, const std::vector<double>& reach)
 {
   std::vector<std::size_t> order(actual.size());
   std::iota(order.begin(), order.end(), 0);
@@ -35,12 +35,12 @@ std::vector<IrregularPair> pairsWithin(const std::vector<IrregularVertex>& expec
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
     const Vector3& p = expected[i].place;
-    auto at = std::lower_bound(order.begin(), order.end(), p.x() - reach,
+    auto at = std::lower_bound(order.begin(), order.end(), p.x() - reach[i],
       [&](std::size_t k, double x) { return actual[k].place.x() < x; });
-    for (; at != order.end() && actual[*at].place.x() <= p.x() + reach; ++at)
+    for (; at != order.end() && actual[*at].place.x() <= p.x() + reach[i]; ++at)
     {
       const double squared = (actual[*at].place - p).squaredNorm();
-      if (squared <= reach * reach && actual[*at].valence == expected[i].valence)
+      if (squared <= reach[i] * reach[i] && actual[*at].valence == expected[i].valence)
       {
         pairs.push_back({ squared, i, *at });
       }
@@ -50,27 +50,10 @@ std::vector<IrregularPair> pairsWithin(const std::vector<IrregularVertex>& expec
   return pairs;
 }
 
-/// As vertices whose valence is the sum of turns; those of ends and junctions differ by the number of sectors, too.
-std::vector<IrregularVertex> asVertices(const std::vector<HeldVertex>& held)
-{
-  constexpr int kMostSectorTurns = 1000;
-  std::vector<IrregularVertex> vertices;
-  for (const HeldVertex& vertex : held)
-  {
-    int turns = kMostSectorTurns * static_cast<int>(vertex.sectors.size());
-    for (const HeldSector& sector : vertex.sectors)
-    {
-      turns += sector.turns;
-    }
-    vertices.push_back({ vertex.place, turns });
-  }
-  return vertices;
-}
-
 } // namespace
 
 IrregularMatch matchIrregular(const std::vector<IrregularVertex>& expected,
-  const std::vector<IrregularVertex>& actual, double reach)
+  const std::vector<IrregularVertex>& actual, const std::vector<double>& reach)
 {
   IrregularMatch match;
   match.actual.resize(expected.size());
@@ -93,23 +76,40 @@ IrregularMatch matchIrregular(const std::vector<IrregularVertex>& expected,
   return match;
 }
 
-std::vector<Vector3> differencesOnFeatures(
-  const std::vector<HeldVertex>& expected, const std::vector<HeldVertex>& actual, double reach)
+std::vector<IrregularVertex> irregularPoints(const QuadMesh& quads)
 {
-  const IrregularMatch match = matchIrregular(asVertices(expected), asVertices(actual), reach);
-  std::vector<Vector3> places;
-  for (std::size_t i = 0; i < expected.size(); ++i)
+  std::vector<IrregularVertex> irregular;
+  for (std::size_t p = 0; p < quads.points.size(); ++p)
   {
-    if (!match.actual[i])
+    const int valence = quads.valence[p] + (quads.onBoundary[p] != 0 ? 1 : 0);
+    if (valence != kRegularValence)
     {
-      places.push_back(expected[i].place);
+      irregular.push_back({ quads.points[p], valence });
     }
   }
-  for (const std::size_t k : match.unexpected)
+  std::sort(irregular.begin(), irregular.end(),
+    [](const IrregularVertex& a, const IrregularVertex& b)
+    { return PlaceOrder()(a.place, b.place); });
+  return irregular;
+}
+
+void change(std::vector<IrregularVertex>& shown, const IrregularEdit::Change& made)
+{
+  auto nearest = shown.end();
+  for (auto at = shown.begin(); made.before != kRegularValence && at != shown.end(); ++at)
   {
-    places.push_back(actual[k].place);
+    const bool isNearer = nearest == shown.end() ||
+      (at->place - made.place).squaredNorm() < (nearest->place - made.place).squaredNorm();
+    nearest = at->valence == made.before && isNearer ? at : nearest;
   }
-  return places;
+  if (nearest != shown.end())
+  {
+    shown.erase(nearest);
+  }
+  if (made.after != kRegularValence)
+  {
+    shown.push_back({ made.place, made.after });
+  }
 }
 
 } // namespace quadrille

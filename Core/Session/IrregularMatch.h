@@ -3,6 +3,7 @@
 /// Which irregular vertices of a result are those that operations lead to.
 #pragma once
 
+#include "Quads/QuadMesh.h"
 #include "Session/Constraints.h"
 
 #include <cstddef>
@@ -18,13 +19,17 @@ struct IrregularMatch
   std::vector<std::size_t> unexpected;            ///< of the actual ones, ascending
 };
 
-/// Pairs of the same valence at most `reach` apart, the nearest ones first, each vertex in one pair at most.
+/// Pairs of the same valence at most reach apart, the nearest ones first, each vertex in one pair at most. reach: of
+/// each expected one.
 IrregularMatch matchIrregular(const std::vector<IrregularVertex>& expected,
-  const std::vector<IrregularVertex>& actual, double reach);
+  const std::vector<IrregularVertex>& actual, const std::vector<double>& reach);
 
-/// The same of vertices on features and boundaries, by the turns of their sectors together: places of those of either
-/// list that have no partner.
-std::vector<Vector3> differencesOnFeatures(
-  const std::vector<HeldVertex>& expected, const std::vector<HeldVertex>& actual, double reach);
+/// Points of the quads whose valence is not that of a regular one, on features and boundaries too; on boundaries it is
+/// one more than the edges. In the order of places.
+std::vector<IrregularVertex> irregularPoints(const QuadMesh& quads);
+
+/// The list as it is after a change: of those of the valence before the one nearest to the place goes, and one of the
+/// valence after comes to it.
+void change(std::vector<IrregularVertex>& shown, const IrregularEdit::Change& made);
 
 } // namespace quadrille

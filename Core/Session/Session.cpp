@@ -9,6 +9,7 @@
 #include "Pipeline/SizedSurface.h"
 #include "Prepare/ConstraintPlacement.h"
 #include "Session/IrregularEdits.h"
+#include "Session/IrregularMatch.h"
 #include "Session/SessionData.h"
 #include "Session/SessionJson.h"
 #include "Session/StateRun.h"
@@ -369,6 +370,7 @@ int Session::add(ConstraintContent content)
     resolveEdit(*edit, name, { where.places, now->fixedEdges, where.sameWithin }, now->irregular);
     edit->upon = data_->linksInForce();
     edit->onFeatures = now->onFeatures;
+    edit->shown = irregularPoints(now->quads);
   }
   auto next = std::make_shared<SessionState>(data_->next());
   next->constraints.push_back(std::make_shared<const SessionConstraint>(std::move(constraint)));
@@ -398,6 +400,7 @@ void Session::edit(int id, ConstraintContent content)
       { where.places, now ? now->fixedEdges : none, where.sameWithin }, made.before);
     edit->upon = made.upon;
     edit->onFeatures = made.onFeatures;
+    edit->shown = made.shown;
   }
   *found = std::make_shared<const SessionConstraint>(std::move(constraint));
   data_->enter(std::move(next));

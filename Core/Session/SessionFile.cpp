@@ -96,10 +96,13 @@ void checkResolved(const IrregularEdit& edit, const std::string& name, std::size
       require(change.place, change.after);
     }
   };
-  for (const IrregularVertex& vertex : edit.before)
+  for (const auto* list : { &edit.before, &edit.shown })
   {
-    // The surface may have others.
-    require(vertex.place, std::clamp(vertex.valence, kLeastValence, kMostValence));
+    for (const IrregularVertex& vertex : *list)
+    {
+      // The surface may have others.
+      require(vertex.place, std::clamp(vertex.valence, kLeastValence, kMostValence));
+    }
   }
   for (const HeldVertex& vertex : edit.onFeatures)
   {

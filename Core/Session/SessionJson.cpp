@@ -147,6 +147,7 @@ constexpr auto kResolvedFields = [](auto& fields, auto& edit)
   fields.needEach("changes", edit.changes, kChangeFields);
   fields.needEach("upon", edit.upon, kLinkFields);
   fields.mayEach("on_features", edit.onFeatures, kHeldFields); // files of before have none
+  fields.mayEach("shown", edit.shown, kVertexFields);
 };
 
 } // namespace

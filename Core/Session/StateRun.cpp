@@ -39,6 +39,12 @@ bool mayBeForConstraints(const RemeshResult& made)
     made.status.code != StatusCode::TooLarge;
 }
 
+/// Whether the run has taken details of the surface out, with which nothing else led to quads.
+bool hasFewerDetails(const RemeshResult& made)
+{
+  return made.status.ok() && made.tries.led[static_cast<std::size_t>(Try::FewerDetails)] > 0;
+}
+
 /// All runs that a state needs.
 class StateRun
 {
@@ -85,13 +91,13 @@ private:
   {
     std::map<int, std::string> leftOut;
     RemeshResult made = runWith(leftOut);
-    if (mayBeForConstraints(made) && composed_.input.regularOnFeatures)
+    if (fails(made, leftOut) && composed_.input.regularOnFeatures)
     {
-      whyNotHeld_ = made.status.message;
+      whyNotHeld_ = reasonOf(made);
       countTry(Try::WithoutHeld, wasStopped_ ? 0 : 1);
       made = runWith(leftOut);
     }
-    while (mayBeForConstraints(made))
+    while (fails(made, leftOut))
     {
       const auto culprit = lastOfShortestFailing(leftOut);
       if (!culprit)
@@ -109,6 +115,48 @@ private:
       countTryLed(Try::WithoutSymmetry, refused_.size());
     }
     return made;
+  }
+
+  /// Whether it may have failed for the sake of constraints: without quads, or as no constraint may change the topology
+  /// of the surface. leftOut: of that run.
+  bool fails(const RemeshResult& made, const std::map<int, std::string>& leftOut)
+  {
+    if (mayBeForConstraints(made))
+    {
+      return true;
+    }
+    if (!hasFewerDetails(made) || leftOut.size() >= countOfThoseThatMayFail())
+    {
+      return false;
+    }
+    if (!hasFewerAnyway_)
+    {
+      std::map<int, std::string> all;
+      for (const auto& constraint : state_.constraints)
+      {
+        if (mayFail(*constraint))
+        {
+          all[constraint->id] = "not tried";
+        }
+      }
+      hasFewerAnyway_ = hasFewerDetails(runWith(all));
+      compose(leftOut);
+    }
+    return !*hasFewerAnyway_;
+  }
+
+  std::size_t countOfThoseThatMayFail() const
+  {
+    return static_cast<std::size_t>(std::count_if(state_.constraints.begin(),
+      state_.constraints.end(), [](const auto& constraint) { return mayFail(*constraint); }));
+  }
+
+  static std::string reasonOf(const RemeshResult& made)
+  {
+    return made.status.ok() ? "no attempt has led to quads that keep all handles and boundary "
+                              "loops of the surface: ask for "
+                              "smaller quads, or have these simplified (Small Details)"
+                            : made.status.message;
   }
 
   void takeIrregular(const RemeshResult& made, SessionResult& result)
@@ -268,7 +316,7 @@ private:
       without[id] = "not tried";
       countTry(Try::WithoutConstraint, wasStopped_ ? 0 : 1);
       const RemeshResult made = runWith(without);
-      if (!mayBeForConstraints(made))
+      if (!fails(made, without))
       {
         last = rest[count];
         break;
@@ -281,7 +329,7 @@ private:
     // The reason is that of the row with it.
     const int id = state_.constraints[*last]->id;
     without.erase(id);
-    whyNot = runWith(without).status.message;
+    whyNot = reasonOf(runWith(without));
     std::string others;
     for (const std::size_t i : rest)
     {
@@ -301,6 +349,8 @@ private:
   ComposedInput composed_;
   SymmetricResult mirrored_; ///< of the last run, without `remeshed`
   std::string whyNotHeld_;   ///< vertices on features and boundaries; empty while they are
+  /// Whether the surface loses details without constraints, too; none: not known.
+  std::optional<bool> hasFewerAnyway_;
   std::map<int, std::string> refused_; ///< symmetries that the surface has not, and why
   StageRecords stages_;
   bool wasStopped_ = false; ///< no run may follow

@@ -54,8 +54,8 @@ std::optional<Vector3> vertexOf(const PlacedConstraint& constraint)
 
 } // namespace
 
-vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint>& placed,
-  const std::vector<CurveOutcome>& outcomes, const QuadMesh& mesh, const std::vector<bool>& isMet)
+vtkSmartPointer<vtkPolyData> writeConstraints(
+  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh, const std::vector<bool>& isMet)
 {
   auto met = newArray<vtkIntArray>("Met");
   auto kind = newArray<vtkIntArray>("Constraint");
@@ -69,9 +69,7 @@ vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> verts;
   vtkNew<vtkCellArray> lines;
-  const QuadMesh none;
   ConstraintMeasures measures(mesh);
-  const LinesInQuads chains(std::any_of(placed.begin(), placed.end(), isLine) ? mesh : none);
   const auto add = [&](std::size_t i, const std::vector<Vector3>& path, vtkCellArray* cells)
   {
     const PlacedConstraint& constraint = placed[i];
@@ -105,9 +103,9 @@ vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint
   {
     if (!vertexOf(placed[i]) && placed[i].path.size() > 1)
     {
-      const std::vector<Vector3> chain =
-        isLine(placed[i]) ? chains.chainOf(placed[i], outcomes) : std::vector<Vector3>{};
-      add(i, chain.empty() ? placed[i].path : chain, lines);
+      const std::optional<LineInQuads> found =
+        isLine(placed[i]) ? measures.lineInQuads(placed[i]) : std::nullopt;
+      add(i, found ? found->chain : placed[i].path, lines);
     }
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();

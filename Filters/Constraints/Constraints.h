@@ -6,7 +6,6 @@
 
 #include "Convert/PolyData.h"
 #include "Extraction/Extraction.h"
-#include "Integers/CurveIsolines.h"
 #include "Requests/DrawnConstraints.h"
 
 #include <vtkSmartPointer.h>
@@ -56,11 +55,11 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
 /// valence that was met, 3 one that was not), SourceId (line or point of its input), Distance, GuidingWeight (0 but on
 /// strokes), TargetValence (0 on lines) and Valence (of the quads' point there, on boundaries one more; 0 on lines).
 /// Points: Direction (unit vectors along lines, else zero). Connections and cycles are 4 and 6, drawn as the chain of
-/// edges that they became; 5 and 7 where there is none, as they were given. Moves of irregular vertices are 8, the
-/// vertex at its new place, and 9, where they begin; 10 is the mirror plane, see addMirrorLines. Lines
-/// that could not be put on the surface are their first point.
-/// outcomes: of connections and cycles. mesh: what was made. isMet: of each, see judgeConstraints.
+/// edges that is judged; 5 and 7 where they are not met, as they were given if there is no chain. Moves of irregular
+/// vertices are 8, the vertex at its new place, and 9, where they begin; 10 is the mirror plane, see addMirrorLines.
+/// Lines that could not be put on the surface are their first point.
+/// mesh: what was made. isMet: of each, see judgeConstraints.
 vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint>& placed,
-  const std::vector<CurveOutcome>& outcomes, const QuadMesh& mesh, const std::vector<bool>& isMet);
+  const QuadMesh& mesh, const std::vector<bool>& isMet);
 
 } // namespace quadrille

@@ -10,18 +10,18 @@ import math
 
 import numpy
 from scipy.sparse import coo_matrix, csr_matrix
-from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.sparse.csgraph import connected_components, dijkstra, maximum_bipartite_matching
 from scipy.spatial import cKDTree
 
 #: Edge lengths between samples of a course.
 STEP = 0.1
 #: Edge lengths within which a place or a line has to be.
 PLACE = 0.3
-#: Edge lengths by which other irregular vertices may have gone, and count as where they were, as the guide has it.
+#: Edge lengths of the quad there within which other irregular vertices are where they were, as the guide has it.
 OTHERS = 2
-#: The same of those at the ends of a connection: their places of the map, which smoothing had left before.
+#: Edge lengths of the quad there within which a connection ends where its line does, as the guide has it.
 ENDS = 1
-#: Edge lengths from a closed course within which a closed chain counts, as the guide has it.
+#: Mean edge lengths by which a chain and its course may differ, as the guide has it.
 REACH = 6
 #: Closed chains longer than so many times the course go round more than once.
 LONGEST_LOOP = 1.9
@@ -346,6 +346,15 @@ class Quads:
         near = self.tree.query(numpy.atleast_2d(places), k=min(9, len(self.quads)))[1]
         return float(self.sizes[near].mean())
 
+    def edge_at(self, place):
+        """The mean of the edges of the quad that is nearest to a place."""
+        near = self.tree.query(place, k=min(9, len(self.quads)))[1].reshape(-1)
+        corners = self.points[self.quads[near]]
+        there = numpy.repeat([place], len(near), axis=0)
+        nearest = corners[numpy.minimum(*(in_triangles(there, *(corners[:, i] for i in half))[1]
+                                          for half in ((0, 1, 2), (0, 2, 3)))).argmin()]
+        return float(numpy.linalg.norm(numpy.roll(nearest, -1, axis=0) - nearest, axis=1).mean())
+
     def below(self, places, normals):
         """For each place the quad that is nearest to it, of those that face the same way."""
         near = self.tree.query(places, k=min(9, len(self.quads)))[1].reshape(len(places), -1)
@@ -458,7 +467,7 @@ def nearest_of_valence(quads, place, normal, valence):
     those = those[quads.point_normals[those] @ normal > 0]
     if not len(those):
         return math.inf
-    return float(numpy.linalg.norm(quads.points[those] - place, axis=1).min()) / quads.length_at(place)
+    return float(numpy.linalg.norm(quads.points[those] - place, axis=1).min()) / quads.edge_at(place)
 
 
 def judge_valence(surface, quads, place, valence):
@@ -467,27 +476,28 @@ def judge_valence(surface, quads, place, valence):
     return Verdict(off <= PLACE, off)
 
 
-def changed(before, after, valences):
-    """Irregular vertices of some quads to which those of others have no equal within OTHERS."""
-    count = 0
-    for valence in valences:
-        old, new = before[valence], after[valence]
-        if len(old):
-            count += len(old) if not len(new) else int((cKDTree(new[:, :3]).query(old[:, :3])[0] > old[:, 3]).sum())
-    return count
+def others(quads, place, valence):
+    """Irregular vertices, on features and boundaries too, without the nearest to a place of that valence: places, their
+    valences, on boundaries one more than the edges, and how far OTHERS is there."""
+    valences = quads.valence + quads.boundary
+    those = numpy.flatnonzero(valences != 4)
+    same = those[valences[those] == valence]
+    if len(same):
+        those = those[those != same[numpy.linalg.norm(quads.points[same] - place, axis=1).argmin()]]
+    within = numpy.array([OTHERS * quads.edge_at(quads.points[p]) for p in those])
+    return quads.points[those], valences[those], within
 
 
-def irregular_but(quads, place, valence):
-    """By valence the places of irregular vertices, and how far OTHERS is there, without the nearest to a place of that
-    valence."""
-    found = {}
-    for v in numpy.unique(quads.valence[quads.irregular()]).tolist() + [valence]:
-        those = quads.irregular(v)
-        if v == valence and len(those):
-            those = numpy.delete(those, numpy.linalg.norm(quads.points[those] - place, axis=1).argmin())
-        within = [OTHERS * quads.length_at(quads.points[p]) for p in those]
-        found[v] = numpy.column_stack((quads.points[those], within))
-    return found
+def changed(before, after):
+    """Of the irregular vertices of two meshes those that have no partner of their valence within OTHERS, each being the
+    partner of one at most."""
+    (places, valences, within), (there, valences_there, _) = before, after
+    if not len(places) or not len(there):
+        return len(places) + len(there)
+    apart_by = numpy.linalg.norm(places[:, None] - there, axis=2)
+    pairs = (apart_by <= within[:, None]) & (valences[:, None] == valences_there)
+    partners = maximum_bipartite_matching(csr_matrix(pairs), perm_type="column")
+    return len(places) + len(there) - 2 * int((partners >= 0).sum())
 
 
 def judge_move(surface, quads, free, origin, target, valence):
@@ -497,24 +507,28 @@ def judge_move(surface, quads, free, origin, target, valence):
     same_side = numpy.flatnonzero(quads.point_normals @ surface.normals[face[0]] > 0)
     nearest = same_side[numpy.linalg.norm(quads.points[same_side] - place[0], axis=1).argmin()]
     left = int(quads.valence[nearest]) + int(quads.boundary[nearest])
-    before, after = irregular_but(free, origin, valence), irregular_but(quads, target, valence)
-    nothing = numpy.zeros((0, 4))
-    valences = sorted(set(before) | set(after))
-    before, after = ({v: found.get(v, nothing) for v in valences} for found in (before, after))
-    others = changed(before, after, valences) + changed(after, before, valences)
-    return Verdict(verdict.ok and left == 4 and others == 0, verdict.deviation,
-                   f"at the old place: valence {left}; {others} others went or came")
+    elsewhere = changed(others(free, origin, valence), others(quads, target, valence))
+    return Verdict(verdict.ok and left == 4 and elsewhere == 0, verdict.deviation,
+                   f"at the old place: valence {left}; {elsewhere} others went or came")
+
+
+def apart(quads, chain, course, closed=False):
+    """The farthest that a chain is from its course, or the course from the chain, in mean edge lengths."""
+    points = quads.points[chain + chain[:1] if closed else chain]
+    feet = on_segments(course.places[:, None], points[:-1], points[1:])
+    back = numpy.linalg.norm(feet - course.places[:, None], axis=2).min(axis=1)
+    return float(max(course.distance(quads.along(chain, closed)).max(), back.max())) / quads.mean_edge
 
 
 def judge_connection(surface, quads, course):
     """A straight chain between vertices that are irregular, on a feature or on the boundary, each within ENDS of its
-    end; of several the one that stays nearest to the course. The deviation is its farthest distance from there."""
+    end; of several the one that stays nearest to the course. The deviation is how far the two are apart."""
     start, end = course.line[0], course.line[-1]
     holds = quads.boundary | (quads.valence != 4)
     near = numpy.flatnonzero(numpy.minimum(numpy.linalg.norm(quads.points - start, axis=1),
                                            numpy.linalg.norm(quads.points - end, axis=1)) < 4 * surface.edge)
     holds[near[surface.to_feature(quads.points[near]) <= STEP * surface.edge]] = True
-    edge = [quads.length_at(start), quads.length_at(end)]
+    edge = [quads.edge_at(start), quads.edge_at(end)]
     off = [numpy.linalg.norm(quads.points - p, axis=1) / e for p, e in zip((start, end), edge)]
     # Within three, to tell by how much the ends of what is there are off.
     best = None
@@ -522,7 +536,7 @@ def judge_connection(surface, quads, course):
     for point in numpy.flatnonzero(holds & (off[0] <= 3)).tolist():
         for chain in quads.lines_from(point, most):
             for k in [k for k in range(1, len(chain)) if holds[chain[k]] and off[1][chain[k]] <= 3]:
-                far = float(course.distance(quads.along(chain[:k + 1])).max()) / numpy.mean(edge)
+                far = apart(quads, chain[:k + 1], course)
                 ends = max(off[0][point], off[1][chain[k]])
                 if far <= REACH and (best is None or (ends > ENDS, far) < (best[0] > ENDS, best[1])):
                     best = ends, far
@@ -532,17 +546,14 @@ def judge_connection(surface, quads, course):
 
 
 def judge_cycle(quads, course):
-    """A closed straight chain within REACH of the course, once round; the deviation is its farthest distance."""
+    """A closed straight chain within REACH of the course, once round; the deviation is how far the two are apart."""
     edge = quads.mean_edge
     inside = course.distance(quads.points) <= REACH * edge
     starts = numpy.flatnonzero(numpy.linalg.norm(quads.points - course.line[0], axis=1) <= REACH * edge)
     best = math.inf
     for chain in quads.loops(starts, inside):
-        places = quads.along(chain, closed=True)
-        length = length_of(quads.points[chain + chain[:1]])
-        if length > LONGEST_LOOP * course.length or cKDTree(places).query(course.places)[0].max() > REACH * edge:
-            continue
-        best = min(best, float(course.distance(places).max()) / edge)
+        if length_of(quads.points[chain + chain[:1]]) <= LONGEST_LOOP * course.length:
+            best = min(best, apart(quads, chain, course, closed=True))
     return Verdict(best <= REACH, best)
 
 

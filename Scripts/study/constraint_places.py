@@ -17,9 +17,9 @@ the others go on.
 
 A place is feasible unless the session does not give it and the judge sees why not: it lies on a feature or boundary,
 the way there crosses a feature, or what lies between features has room for less than nine quads. A
-stroke has room where its features are two edge lengths away, and quads turn from them to it by at most six degrees an
-edge length. Random sessions of all kinds of edits are made by `check/random_sessions.py MODEL... --sessions N
---inside`.
+stroke has room where its features are two edge lengths away, and quads that turn from them to it have sizes that grow
+by at most a quarter an edge length, as the guide lets sizes grow. Random sessions of all kinds of edits are made by
+`check/random_sessions.py MODEL... --sessions N --inside`.
 """
 import argparse
 import collections
@@ -52,13 +52,13 @@ ON_FEATURE = 0.3
 ROOM = 9
 #: Edge lengths from features within which they do not leave a stroke room.
 STROKE_ROOM = 2
-#: Degrees an edge length by which quads turn from features to a stroke where these leave it room: a conformal map that
-#: turns so has sizes that differ by a tenth from one quad to the next.
-BEND = 6
 #: Edge lengths that a drawn line keeps from features, where it does not cross them.
 CLEAR = 0.75
 #: By how much sizes grow over an edge length beyond the radius that they are asked for in, as the guide has it.
 GROWTH = 0.25
+#: Degrees an edge length by which quads turn from features to a stroke where these leave it room: a conformal map that
+#: turns by an angle over a length has sizes that grow by as much, across.
+BEND = math.degrees(GROWTH)
 COLUMNS = ("model", "kind", "number", "asked", "word", "met", "told", "unit", "reason", "ok", "deviation", "more",
            "excuse", "seconds", "share", "notices")
 

@@ -321,7 +321,7 @@ TEST(ConstraintTable, WhatIsNotFollowedHasARowToo)
   }
   // What is not followed is shown where it was drawn.
   const vtkSmartPointer<vtkPolyData> shown =
-    writeConstraints(asked.placed, {}, mesh, metOfDrawn(words, asked));
+    writeConstraints(asked.placed, mesh, metOfDrawn(words, asked));
   EXPECT_EQ(shown->GetNumberOfVerts(), 2);
   EXPECT_EQ(shown->GetNumberOfCells(), 2);
   EXPECT_EQ(shown->GetCellData()->GetScalars()->GetRange()[1], 0);

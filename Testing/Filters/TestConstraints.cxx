@@ -328,7 +328,7 @@ TEST(Constraints, OutputTellsWhatWasReached)
   stroke.kind = ConstraintKind::Stroke;
   stroke.path = { { 0, 0, 0 }, { 1, 0, 0 } };
   const vtkSmartPointer<vtkPolyData> data =
-    writeConstraints({ stroke, met, missed }, {}, mesh, { true, true, false });
+    writeConstraints({ stroke, met, missed }, mesh, { true, true, false });
   ASSERT_EQ(data->GetNumberOfVerts(), 2);
   ASSERT_EQ(data->GetNumberOfLines(), 1);
   vtkDataArray* isMet = data->GetCellData()->GetScalars();

@@ -123,6 +123,9 @@ class Judge(unittest.TestCase):
         # One end lies in a side, two edges from the nearest vertex that is irregular or on a feature.
         inside = self.course((0.5, 2 / N, 1), (0.5, 1, 1))
         self.assertFalse(judge.judge_connection(self.surface, grid(), inside).ok)
+        # The chain lies on the course, which goes elsewhere besides.
+        detour = self.course((0.5, 0, 1), (0.5, 0.5, 1), (0.5 + 7 / N, 0.5, 1), (0.5, 0.5, 1), (0.5, 1, 1))
+        self.assertFalse(judge.judge_connection(self.surface, grid(), detour).ok)
 
     def test_cycle(self):
         for height, off in ((0.5, 0), (0.5 + 0.4 / N, 0.4)):

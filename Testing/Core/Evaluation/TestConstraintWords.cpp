@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// What the arrays of a surface ask for, and what the words say of a plane of unit quads.
+#include "Base/Angles.h"
 #include "Evaluation/ConstraintMeasures.h"
 #include "Evaluation/ConstraintWords.h"
 
@@ -214,6 +215,91 @@ TEST(ConstraintWords, AMoveIsMetWhereItsOldPlaceIsRegularToo)
   }
   const std::vector<ConstraintWord> words = judgeConstraints(asked, withIrregularPoints(), {});
   EXPECT_TRUE(words[0].isMet) << words[0].reason;
+  EXPECT_FALSE(words[1].isMet);
+}
+
+PlacedConstraint placedLine(ConstraintKind kind, const std::vector<Vector3>& line)
+{
+  PlacedConstraint placed;
+  placed.kind = kind;
+  placed.given = placed.path = line;
+  placed.curve = 0;
+  return placed;
+}
+
+TEST(ConstraintWords, AConnectionIsMetWhereChainAndLineAreNearEachOtherBothWays)
+{
+  AskedConstraints asked;
+  asked.curves.resize(1);
+  // From the point of valence 3 to the boundary: along the chain there; beside it; by a detour that leaves it; and from
+  // where nothing irregular is.
+  for (const std::vector<Vector3>& line :
+    { std::vector<Vector3>{ { 3, 3, 0 }, { 3, 0, 0 } }, { { 3.4, 3, 0 }, { 3.4, 0, 0 } },
+      { { 3, 3, 0 }, { 9.5, 3, 0 }, { 3, 0, 0 } }, { { 3, 4.5, 0 }, { 3, 0, 0 } } })
+  {
+    asked.placed.push_back(placedLine(ConstraintKind::Connection, line));
+  }
+  const std::vector<ConstraintWord> words = judgeConstraints(asked, withIrregularPoints(), {});
+  ASSERT_EQ(words.size(), 4U);
+  EXPECT_TRUE(words[0].isMet) << words[0].reason;
+  EXPECT_NEAR(words[0].deviation, 0, 1e-12);
+  EXPECT_TRUE(words[1].isMet) << words[1].reason;
+  EXPECT_NEAR(words[1].deviation, 0.4, 1e-12);
+  EXPECT_FALSE(words[2].isMet);
+  EXPECT_NE(words[2].reason.find("within 6 edge lengths"), std::string::npos) << words[2].reason;
+  EXPECT_FALSE(words[3].isMet);
+  EXPECT_NE(words[3].reason.find("1.5 edge lengths from the end"), std::string::npos)
+    << words[3].reason;
+}
+
+/// Unit quads round an axis, so many round and along.
+QuadMesh tube(Index round, Index along)
+{
+  QuadMesh mesh;
+  const double radius = 0.5 / std::sin(kPi / round);
+  for (Index z = 0; z <= along; ++z)
+  {
+    for (Index i = 0; i < round; ++i)
+    {
+      const double angle = 2 * kPi * i / round;
+      const bool isEnd = z == 0 || z == along;
+      mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+      mesh.valence.push_back(isEnd ? 3 : 4);
+      mesh.onBoundary.push_back(isEnd ? 1 : 0);
+    }
+  }
+  for (Index z = 0; z < along; ++z)
+  {
+    for (Index i = 0; i < round; ++i)
+    {
+      const Index next = (i + 1) % round;
+      mesh.quads.push_back(
+        { z * round + i, z * round + next, (z + 1) * round + next, (z + 1) * round + i });
+    }
+  }
+  return mesh;
+}
+
+TEST(ConstraintWords, ACycleIsMetWhereAChainClosesWhereverTheLineGoes)
+{
+  constexpr Index kRound = 16, kAlong = 24;
+  const QuadMesh mesh = tube(kRound, kAlong);
+  AskedConstraints asked;
+  std::vector<Vector3> ring, detour;
+  for (Index i = 0; i <= kRound; ++i)
+  {
+    Vector3 p = mesh.points[10 * kRound + i % kRound];
+    ring.emplace_back(p + Vector3(0, 0, 0.3));
+    // Up to 13 edges away, so that each ring leaves some of it.
+    p.z() += i == kRound / 2 ? 13 : 0;
+    detour.push_back(p);
+  }
+  asked.placed = { placedLine(ConstraintKind::Cycle, ring),
+    placedLine(ConstraintKind::Cycle, detour) };
+  const std::vector<ConstraintWord> words = judgeConstraints(asked, mesh, {});
+  ASSERT_EQ(words.size(), 2U);
+  EXPECT_TRUE(words[0].isMet) << words[0].reason;
+  EXPECT_NEAR(words[0].deviation, 0.3, 1e-9);
   EXPECT_FALSE(words[1].isMet);
 }
 

@@ -7,6 +7,7 @@
 #include "Prepare/Prepare.h"
 #include "Requests/MeshPaths.h"
 #include "Requests/StrokeGuides.h"
+#include "Requests/VerticesForSizes.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -415,6 +416,50 @@ TEST(StrokeGuides, TheLaterOneCountsUnlessOrdersSayOtherwise)
       {
         EXPECT_NEAR(std::abs(face.direction.x()), isLater ? 0 : 1, 1e-12);
       }
+    }
+  }
+}
+
+TEST(InsertValences, AVertexTakesThePlaceWhereAFaceOfAnotherPartIsNearer)
+{
+  // A small cube stands on a larger one.
+  constexpr double kGap = 1e-9;
+  Mesh small = unitCube(1);
+  for (Vector3& p : small.position.editAll())
+  {
+    p = 0.6 * p;
+  }
+  PreparedSurface surface =
+    prepared(disjointUnion(unitCube(4), small, Vector3(0.2, 0.2, 1 + kGap)));
+  const Index before = surface.mesh.vertexCount();
+  const Vector3 place(0.5, 0.5, 1 + kGap);
+  insertValences(surface, { { place, 3 } }, { 0.05, 1 });
+  EXPECT_EQ(surface.mesh.vertexCount(), before);
+  ASSERT_EQ(surface.valenceRequests.size(), 1U);
+  EXPECT_EQ(surface.mesh.position[surface.valenceRequests[0].vertex], Vector3(0.5, 0.5, 1));
+}
+
+TEST(VerticesForSizes, AreSpreadOverTheRegionOffFeatures)
+{
+  constexpr double kS = 0.02;
+  PreparedSurface surface = prepared(unitCube(64));
+  EXPECT_TRUE(verticesForSizes(surface, kS).empty());
+  const SizeRequest size{ { 0.5, 0.8, 1 }, 0.15, 2, 1 };
+  surface.sizes = { size };
+  const std::vector<Index> vertices = verticesForSizes(surface, kS);
+  // Sizes grow by a quarter an edge length, so that the region ends four of these beyond the radius.
+  const double reach = 0.15 + 4 * kS;
+  EXPECT_GT(vertices.size(), 30U);
+  EXPECT_LT(vertices.size(), 200U);
+  for (const Index v : vertices)
+  {
+    const Vector3& p = surface.mesh.position[v];
+    EXPECT_LE((p - size.place).norm(), reach);
+    // An edge of the cube lies in the region.
+    EXPECT_FALSE(p.y() == 1 && p.z() == 1);
+    for (const Index other : vertices)
+    {
+      EXPECT_TRUE(v == other || (p - surface.mesh.position[other]).norm() >= 2 * kS);
     }
   }
 }

@@ -125,6 +125,42 @@ TEST_F(SessionFile, FilesOfVersionOneAreRead)
   EXPECT_NE(messageOfLoad(dents()).find("names point 2562"), std::string::npos);
 }
 
+/// What a user saw before a move is compared with the quads after it.
+TEST_F(SessionFile, TheWordOnAMoveComparesTheQuadsBeforeAndAfter)
+{
+  Session session(dents(), sessionOptions(400));
+  session.update();
+  const IrregularVertex from = session.result()->irregular.front();
+  session.add(IrregularEdit{ IrregularOperation::Move,
+    { from.place, emptiestPlace(session, session.result()->irregular) }, {}, {}, {}, {} });
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.constraints[0].isMet) << report.constraints[0].reason;
+  session.save(path_);
+  const SessionJson saved = SessionJson::parse(text());
+  const auto wordWith = [&](const auto& change)
+  {
+    SessionJson json = saved;
+    change(json["state"]["constraints"][0]["resolved"]["shown"]);
+    write(json.dump());
+    Session loaded = Session::load(path_, dents());
+    return loaded.update().constraints[0];
+  };
+  EXPECT_TRUE(wordWith([](SessionJson&) {}).isMet);
+  // One more was there, one less, or one elsewhere.
+  const ConstraintReport more = wordWith(
+    [](SessionJson& shown)
+    {
+      shown.push_back(shown.back());
+      shown.back()["valence"] = 7;
+    });
+  EXPECT_FALSE(more.isMet);
+  EXPECT_NE(more.reason.find("1 other irregular vertices"), std::string::npos) << more.reason;
+  EXPECT_FALSE(wordWith([](SessionJson& shown) { shown.erase(shown.size() - 1); }).isMet);
+  EXPECT_FALSE(wordWith([](SessionJson& shown) { shown.back()["place"] = { 9, 9, 9 }; }).isMet);
+  // Files of version 1 do not know.
+  EXPECT_TRUE(wordWith([](SessionJson& shown) { shown.clear(); }).isMet);
+}
+
 TEST_F(SessionFile, KeepsEveryBit)
 {
   const double values[] = { 0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -0.0, 123456789.123456789,

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Requests/VerticesForSizes.h"
+
+#include "Base/Progress.h"
+#include "Mesh/Sizing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+namespace
+{
+
+/// Between two of them, in radii of the region; and in quads of the size that is asked for, as irregular vertices that
+/// are nearer to each other leave a map no room.
+constexpr double kSpacingOfRegion = 0.15;
+constexpr double kSpacingInQuads = 1;
+
+std::vector<std::uint8_t> onConstraints(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> on(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isConstrained(h))
+    {
+      on[mesh.origin[h]] = on[mesh.target(h)] = 1;
+    }
+  }
+  return on;
+}
+
+} // namespace
+
+std::vector<Index> verticesForSizes(const PreparedSurface& surface, double edgeLength)
+{
+  std::vector<Index> all;
+  if (surface.sizes.empty())
+  {
+    return all;
+  }
+  const Mesh& mesh = surface.mesh;
+  const std::vector<std::uint8_t> isOn = onConstraints(mesh);
+  for (const SizeRequest& size : surface.sizes)
+  {
+    const double reach = size.radius + std::abs(size.factor - 1) / kSizeGrowth * edgeLength;
+    const double spacing =
+      std::max(kSpacingOfRegion * reach, kSpacingInQuads * size.factor * edgeLength);
+    std::vector<Index> kept;
+    for (Index v = 0; v < mesh.vertexCount(); ++v)
+    {
+      pollNowAndThen(v);
+      const Vector3& p = mesh.position[v];
+      const bool isFree = isOn[v] == 0 && (p - size.place).norm() <= reach &&
+        std::none_of(kept.begin(), kept.end(),
+          [&](Index other) { return (mesh.position[other] - p).norm() < spacing; });
+      if (isFree)
+      {
+        kept.push_back(v);
+      }
+    }
+    all.insert(all.end(), kept.begin(), kept.end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+} // namespace quadrille
