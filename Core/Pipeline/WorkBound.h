@@ -29,7 +29,7 @@ struct WorkBound
 };
 
 /// Attempts that a run makes at most.
-constexpr std::size_t kMostAttempts = 16;
+constexpr std::size_t kMostAttempts = 20;
 
 /// faces: of the surface that is mapped; quads: that the map is made for at first.
 inline WorkBound workBound(std::size_t faces, std::size_t quads)
@@ -38,7 +38,7 @@ inline WorkBound workBound(std::size_t faces, std::size_t quads)
   constexpr std::size_t kOfFace = 4;
   constexpr std::size_t kOfQuad = 100;
   constexpr std::size_t kMapsOverRun = 2;
-  constexpr std::size_t kAttemptsOfLastResort = 4;
+  constexpr std::size_t kAttemptsOfLastResort = 8;
   constexpr std::size_t kAttemptOfFace = 1;
   constexpr std::size_t kAttemptOfQuad = 20;
   WorkBound bound;
