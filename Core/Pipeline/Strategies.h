@@ -71,9 +71,9 @@ std::optional<Plan> fewerBorders(const AttemptFailure& failure);
 std::optional<Plan> withFewerBorders(
   const RunContext& run, const Plan& before, const std::vector<Vector3>& places);
 
-/// Where nothing else has led to quads: the features that only the dihedral angle asked for and that quads four times as
-/// large could not follow (see removeUnresolvedFeatures) are given up, and the next time all of them. Bound: times in
-/// all.
+/// Where nothing else has led to quads: the features that only the dihedral angle asked for and that quads four times
+/// as large could not follow (see removeUnresolvedFeatures) are given up, and the next time all of them. Bound: times
+/// in all.
 std::optional<Plan> coarserFeatures(const AttemptFailure& failure);
 
 /// The plan of coarserFeatures; none where there is no such feature.
