@@ -203,6 +203,7 @@ public:
    * Which edges above the feature angle are features, a FeatureCriterionTypes. Creases: those of curves that are
    * creases as a whole, long against the quads, smooth along their course and sharp over a distance, too; noise of
    * scans makes none. By angle: all that stand out from their surroundings and that quads of this size can follow.
+   * On a surface with large planes, as designed bodies have, creases are all that quads of this size can follow.
    * Default: creases.
    */
   vtkSetClampMacro(FeatureCriterion, int, FEATURES_ARE_CREASES, FEATURES_BY_ANGLE);
