@@ -21,6 +21,8 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
     "4 in a row" },
   { "pipeline", "more quads", "twice the quads", "3 in a row" },
   { "pipeline", "fewer borders", "borders of patches are led together, or given up", "6" },
+  { "pipeline", "features as on scans", "bands between an eighth and a quarter of s are given up",
+    "1" },
   { "pipeline", "fewer features", "detected features near the places of a failure are given up",
     "4" },
   { "pipeline", "coarser features",

@@ -21,6 +21,7 @@ enum class Try : std::uint8_t
   SmallerQuadsNear,
   MoreQuads,
   FewerBorders,
+  FeaturesAsOnScans,
   FewerFeatures,
   CoarserFeatures,
   NoBorders,

@@ -149,11 +149,10 @@ void giveUp(const std::vector<Index>& features, Plan& plan)
 }
 
 /// Features that quads so many times as large as they are to be cannot resolve.
-std::vector<Index> unresolved(const RunContext& run, Mesh mesh, double times)
+std::vector<Index> unresolved(const RunContext& run, Mesh mesh, double times, bool isDesigned)
 {
   const std::vector<std::uint8_t> before = mesh.flags;
   const double edgeLength = times * run.edgeLength;
-  const bool isDesigned = run.surface->facets.isDesigned;
   FeatureFilterReport filtered =
     removeUnresolvedFeatures(mesh, edgeLength, isDesigned, run.options.threads);
   simplifyFeatureNetwork(mesh, edgeLength, isDesigned, filtered);
@@ -167,7 +166,7 @@ std::vector<Index> unresolvedWithBorders(const RunContext& run, Mesh mesh, doubl
   {
     flags &= (flags & kYieldingFeature) != 0 ? static_cast<std::uint8_t>(~kRequestedFeature) : 0xFF;
   }
-  return unresolved(run, std::move(mesh), times);
+  return unresolved(run, std::move(mesh), times, run.surface->facets.isDesigned);
 }
 
 /// Junctions of borders that are too near to each other for quads become one; null where there are none.
@@ -431,6 +430,27 @@ std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
   return plan;
 }
 
+std::optional<Plan> featuresAsOnScans(const AttemptFailure& failure)
+{
+  const RunContext& run = failure.run;
+  if (!failure.withoutQuads || !run.surface->facets.isDesigned || isTooLarge(failure.attempt))
+  {
+    return std::nullopt;
+  }
+  const std::vector<Index> features = unresolved(run, failure.surface->mesh, 1, false);
+  if (features.empty())
+  {
+    return std::nullopt;
+  }
+  Plan plan = fromTheBeginning(run, failure.attempt.plan);
+  giveUp(features, plan);
+  plan.notices.push_back(std::to_string(features.size()) +
+    " sharp edges along bands narrower than a quarter of an edge length were not used as features, "
+    "as there is no map "
+    "with them; ask for smaller quads, or mark the edges that are to stay");
+  return plan;
+}
+
 std::optional<Plan> fewerBorders(const AttemptFailure& failure)
 {
   return failure.withoutQuads && !isTooLarge(failure.attempt) &&
@@ -486,7 +506,7 @@ std::optional<Plan> withCoarserFeatures(const RunContext& run, const Plan& befor
   std::vector<Index> features;
   if (!before.hasCoarserFeatures && !detected.empty())
   {
-    features = unresolved(run, surface->mesh, kCoarserFeatures);
+    features = unresolved(run, surface->mesh, kCoarserFeatures, true);
   }
   features = features.empty() ? detected : features;
   if (features.empty())

@@ -146,9 +146,9 @@ std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centre
 TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
-    std::vector<std::string>(
-      { "more freedom", "room for curves", "kept defects", "smaller quads near", "more quads",
-        "fewer borders", "fewer features", "coarser features", "no borders" }));
+    std::vector<std::string>({ "more freedom", "room for curves", "kept defects",
+      "smaller quads near", "more quads", "fewer borders", "fewer features", "features as on scans",
+      "coarser features", "no borders" }));
 }
 
 // The plan that a run begins with.
@@ -975,7 +975,7 @@ TEST(Recovery, WithoutQuadsTheLastResortIsTriedWhateverTheWork)
   EXPECT_FALSE(nextPlan(run.context, history));
 }
 
-TEST(Recovery, TheLastResortBeginsWithWhatMuchLargerQuadsCouldNotFollow)
+TEST(Recovery, TheLastResortBeginsWithWhatOtherSurfacesWouldNotHave)
 {
   Mesh small = test::unitCube(2);
   for (Vector3& p : small.position.editAll())
@@ -986,7 +986,7 @@ TEST(Recovery, TheLastResortBeginsWithWhatMuchLargerQuadsCouldNotFollow)
     test::toInput(test::disjointUnion(test::unitCube(8), small, Vector3(2, 0, 0)));
   CubeRun run(input);
   const std::optional<Plan> next = run.nextAfter(run.first(), failedMap(), nullptr, true);
-  expectStep(next, "coarser features");
+  expectStep(next, "features as on scans");
   ASSERT_TRUE(next->featuresGivenUp);
   for (const Index h : *next->featuresGivenUp)
   {
