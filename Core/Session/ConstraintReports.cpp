@@ -242,6 +242,7 @@ std::vector<Vector3> SessionJudge::otherChanges()
   }
   const std::vector<IrregularVertex>& expected = *composed_.shown;
   std::vector<double> reach;
+  reach.reserve(expected.size());
   for (const IrregularVertex& vertex : expected)
   {
     reach.push_back(reachAt(vertex.place));
