@@ -446,8 +446,7 @@ std::optional<Plan> featuresAsOnScans(const AttemptFailure& failure)
   giveUp(features, plan);
   plan.notices.push_back(std::to_string(features.size()) +
     " sharp edges along bands narrower than a quarter of an edge length were not used as features, "
-    "as there is no map "
-    "with them; ask for smaller quads, or mark the edges that are to stay");
+    "as there is no map with them; ask for smaller quads, or mark the edges that are to stay");
   return plan;
 }
 
@@ -506,7 +505,7 @@ std::optional<Plan> withCoarserFeatures(const RunContext& run, const Plan& befor
   std::vector<Index> features;
   if (!before.hasCoarserFeatures && !detected.empty())
   {
-    features = unresolved(run, surface->mesh, kCoarserFeatures, true);
+    features = unresolved(run, surface->mesh, kCoarserFeatures, run.surface->facets.isDesigned);
   }
   features = features.empty() ? detected : features;
   if (features.empty())
