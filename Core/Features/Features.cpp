@@ -182,8 +182,7 @@ bool isDesigned(const Mesh& mesh, const FaceNormals& normals, int threads)
     planes.join(Mesh::face(h), Mesh::face(mesh.twin[h]));
     isJoined[Mesh::face(h)] = isJoined[Mesh::face(mesh.twin[h])] = 1;
   }
-  std::vector<double> areas(
-    mesh.faceCount(), 0.0); // of planes of several triangles, by their roots
+  std::vector<double> areas(mesh.faceCount(), 0.0); // of planes of several triangles, by roots
   double all = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {

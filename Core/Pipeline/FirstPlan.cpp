@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/FirstPlan.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Mesh/Sizing.h"
 #include "Requests/Guides.h"
@@ -121,9 +122,8 @@ LevelPlan firstLevels(const RunContext& run)
   {
     std::vector<Index>& kept = levels.keptVertices;
     const std::size_t before = kept.size();
-    kept.insert(kept.end(), forSizes.begin(), forSizes.end());
-    std::sort(kept.begin(), kept.end());
-    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    append(kept, forSizes);
+    sortUnique(kept);
     // Not fewer elsewhere because of these; 0 is as many as the curvature needs.
     levels.coarseVertices +=
       levels.coarseVertices == 0 ? 0 : static_cast<Index>(kept.size() - before);

@@ -75,7 +75,6 @@ struct Plan
   std::shared_ptr<const MovedFeatures> moved;
   int featureDrops = 0;             ///< how often detected features were given up
   std::vector<FeatureDrop> dropped; ///< where
-  bool hasCoarserFeatures = false;  ///< those that much larger quads could follow, or none
   int borderDrops = 0;              ///< how often features that were asked for but yield were
 
   // Of the map.

@@ -503,7 +503,8 @@ std::optional<Plan> withCoarserFeatures(const RunContext& run, const Plan& befor
   const PlannedSurface surface = withPlan(run.surface, before, run.options.threads);
   const std::vector<Index> detected = allOf(surface->mesh, isDetectedFeature);
   std::vector<Index> features;
-  if (!before.hasCoarserFeatures && !detected.empty())
+  const std::vector<Try>& made = before.made;
+  if (std::find(made.begin(), made.end(), Try::CoarserFeatures) == made.end() && !detected.empty())
   {
     features = unresolved(run, surface->mesh, kCoarserFeatures, run.surface->facets.isDesigned);
   }
@@ -514,7 +515,6 @@ std::optional<Plan> withCoarserFeatures(const RunContext& run, const Plan& befor
   }
   Plan plan = fromTheBeginning(run, before);
   plan.featureDrops = static_cast<int>(kMostFeatureDrops);
-  plan.hasCoarserFeatures = true;
   giveUp(features, plan);
   plan.notices.push_back("with all features no attempt has led to quads: " +
     std::to_string(features.size()) + " of " + std::to_string(detected.size()) +
