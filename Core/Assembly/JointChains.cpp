@@ -4,13 +4,14 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
-#include "Base/TryCount.h"
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 namespace quadrille
 {
@@ -266,38 +267,85 @@ void JointChains::addLoop(const FineLoop& fine, const std::vector<std::pair<doub
 
 void JointChains::chooseNumbers()
 {
-  for (const bool allEven : { false, true })
+  for (JointSegment& segment : segments_)
   {
-    countTry(Try::EvenNumbers, allEven ? 1 : 0);
-    for (JointSegment& segment : segments_)
+    segment.edges = 1;
+  }
+  for (const SheetLoop& loop : loops_)
+  {
+    for (const SheetChain& chain : loop.chains)
     {
-      segment.edges = 1;
+      if (chain.segment != kNoJoint)
+      {
+        std::size_t& edges = segments_[chain.segment].edges;
+        edges = std::max(edges, chain.edges());
+      }
     }
+  }
+  makeSheetsEven();
+}
+
+void JointChains::makeSheetsEven()
+{
+  // One equation a sheet without a boundary of its own, over the segments that it has an odd number of times: the sum of
+  // what they get is odd where the sheet lacks an odd number. All even numbers are a solution, so there is one. Long
+  // segments are the first to be solved for, and all others stay as they are.
+  const std::size_t segments = segments_.size();
+  std::vector<std::size_t> order(segments);
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b)
+    { return segments_[a].arc.back() > segments_[b].arc.back(); });
+  std::vector<std::size_t> column(segments);
+  for (std::size_t i = 0; i < segments; ++i)
+  {
+    column[order[i]] = i;
+  }
+  std::vector<std::vector<bool>> rows;
+  for (Index sheet = 0; sheet < sheets_.offset.size(); ++sheet)
+  {
+    if (hasFree(sheet))
+    {
+      continue;
+    }
+    std::vector<bool>& row = rows.emplace_back(segments + 1, false);
     for (const SheetLoop& loop : loops_)
     {
       for (const SheetChain& chain : loop.chains)
       {
-        if (chain.segment != kNoJoint)
+        if (loop.sheet == sheet)
         {
-          std::size_t& edges = segments_[chain.segment].edges;
-          edges = std::max(edges, chain.edges());
+          row[column[chain.segment]].flip();
         }
       }
     }
-    for (JointSegment& segment : segments_)
+    row[segments] = lackOf(sheet) % 2 != 0;
+  }
+  std::size_t solved = 0;
+  std::vector<std::size_t> pivots;
+  for (std::size_t c = 0; c < segments && solved < rows.size(); ++c)
+  {
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(solved);
+    const auto pivot =
+      std::find_if(begin, rows.end(), [&](const std::vector<bool>& row) { return row[c]; });
+    if (pivot == rows.end())
     {
-      segment.edges += allEven ? segment.edges % 2 : 0;
+      continue;
     }
-    bool isPossible = true;
-    for (Index sheet = 0; sheet < sheets_.offset.size(); ++sheet)
+    std::iter_swap(begin, pivot);
+    for (std::size_t r = 0; r < rows.size(); ++r)
     {
-      isPossible = isPossible && (hasFree(sheet) || lackOf(sheet) % 2 == 0);
+      if (r != solved && rows[r][c])
+      {
+        std::transform(rows[r].begin(), rows[r].end(), rows[solved].begin(), rows[r].begin(),
+          std::not_equal_to<>());
+      }
     }
-    if (isPossible)
-    {
-      countTryLed(Try::EvenNumbers, allEven ? 1 : 0);
-      return;
-    }
+    pivots.push_back(c);
+    ++solved;
+  }
+  for (std::size_t i = 0; i < pivots.size(); ++i)
+  {
+    segments_[order[pivots[i]]].edges += rows[i][segments] ? 1 : 0;
   }
 }
 

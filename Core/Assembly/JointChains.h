@@ -64,7 +64,7 @@ public:
     findChains();
   }
 
-  /// Of the edges of each segment; all of them even where sheets need that.
+  /// Of the edges of each segment: those of the sheet that has the most, and one more where sheets need that.
   void chooseNumbers();
   std::size_t lackOf(const SheetChain& chain) const;
   std::size_t lackOf(Index sheet) const;
@@ -80,6 +80,8 @@ private:
   /// The chains of all sheets, cut at the points of the quads nearest to nodes.
   void findChains();
   void addLoop(const FineLoop& fine, const std::vector<std::pair<double, Index>>& points);
+  /// A sheet without a boundary of its own can lack an even number only: some segments get an edge more for that.
+  void makeSheetsEven();
   bool hasFree(Index sheet) const;
 
   const RemeshResult& result_;

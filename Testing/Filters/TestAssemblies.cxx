@@ -655,12 +655,14 @@ TEST(ConformingParts, TouchingSolidsShareTheirQuads)
 }
 
 /// Planes cut a box into two to four solids, some of them thin: each is closed, and every edge has two quads of each
-/// solid that it is on.
+/// solid that it is on. Where a sheet lacks an odd number of edges, few segments get more: with all numbers even the last
+/// box had 1,296 quads of 1,100.
 TEST(ConformingParts, BoxesCutByPlanesConform)
 {
   using Cut = std::pair<int, int>; // axis, and the first voxel beyond
   const std::vector<std::vector<Cut>> boxes{ { { 0, 5 } }, { { 0, 4 }, { 1, 3 } },
-    { { 1, 2 }, { 2, 1 }, { 0, 1 } }, { { 0, 5 }, { 1, 3 }, { 2, 1 } } };
+    { { 1, 2 }, { 2, 1 }, { 0, 1 } }, { { 0, 5 }, { 1, 3 }, { 2, 1 } },
+    { { 2, 1 }, { 0, 4 }, { 1, 5 } } };
   for (std::size_t b = 0; b < boxes.size(); ++b)
   {
     const std::vector<Cut>& cuts = boxes[b];
@@ -689,12 +691,18 @@ TEST(ConformingParts, BoxesCutByPlanesConform)
       vtkNew<vtkQuadRemesh> filter;
       remeshTogether(filter, input, number);
       ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+      vtkIdType quads = 0;
       for (unsigned solid = 0; solid <= cuts.size(); ++solid)
       {
         const test::QuadTally t = test::tally(partOf(filter, solid));
         EXPECT_EQ(t.boundaryEdges, 0U);
         EXPECT_EQ(t.badEdges, 0U);
         EXPECT_EQ(t.eulerCharacteristic, 2);
+        quads += partOf(filter, solid)->GetNumberOfCells();
+      }
+      if (number > 1000)
+      {
+        EXPECT_LT(static_cast<double>(quads), 1.15 * static_cast<double>(number));
       }
       const Union all(filter);
       EXPECT_TRUE(std::all_of(
