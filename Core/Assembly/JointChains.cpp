@@ -287,13 +287,14 @@ void JointChains::chooseNumbers()
 
 void JointChains::makeSheetsEven()
 {
-  // One equation a sheet without a boundary of its own, over the segments that it has an odd number of times: the sum of
-  // what they get is odd where the sheet lacks an odd number. All even numbers are a solution, so there is one. Long
+  // One equation a sheet without a boundary of its own, over the segments that it has an odd number of times: the sum
+  // of what they get is odd where the sheet lacks an odd number. All even numbers are a solution, so there is one. Long
   // segments are the first to be solved for, and all others stay as they are.
   const std::size_t segments = segments_.size();
   std::vector<std::size_t> order(segments);
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b)
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b)
     { return segments_[a].arc.back() > segments_[b].arc.back(); });
   std::vector<std::size_t> column(segments);
   for (std::size_t i = 0; i < segments; ++i)

@@ -33,6 +33,8 @@ from scipy.sparse.csgraph import connected_components
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
+import told_details
+
 COUNT_WITHIN = 0.15
 FIELDS = ("model", "quads", "code", "processor", "seconds", "attempts", "made", "mean", "least", "inverted",
           "irregular", "topology", "map", "details", "error")
@@ -81,24 +83,9 @@ def compare(known, report):
     if known is None or any(repair.get(name) for name in (
             "non_manifold_edges", "non_manifold_vertices", "degenerate_faces", "duplicate_faces")):
         return "?"
-    wanted = {name: known[name] for name in ("components", "loops", "euler")}
     if repair.get("merged_points", 0) > known["equal"]:
         return "?"  # points that are only nearly at one place
-    for detail in report.get("details", ()):
-        if detail["decision"] != "simplified":
-            continue
-        if detail["kind"] == "handle":
-            wanted["euler"] += 2
-        elif detail["kind"] == "thin part":
-            if detail["result"] == "cut in two":
-                wanted["components"] += 1
-                wanted["euler"] += 2
-        elif detail["kind"] == "boundary loop":
-            wanted["euler"] += 1
-            wanted["loops"] -= 1
-        elif detail["result"].startswith("removed"):
-            wanted["components"] -= 1
-            wanted["euler"] -= 2
+    wanted = told_details.without(known, report.get("details"))
     quality = report["quality"]
     got = {"components": quality["components"], "loops": quality["boundary_loops"],
            "euler": quality["euler_characteristic"]}

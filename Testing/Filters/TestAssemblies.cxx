@@ -655,8 +655,8 @@ TEST(ConformingParts, TouchingSolidsShareTheirQuads)
 }
 
 /// Planes cut a box into two to four solids, some of them thin: each is closed, and every edge has two quads of each
-/// solid that it is on. Where a sheet lacks an odd number of edges, few segments get more: with all numbers even the last
-/// box had 1,296 quads of 1,100.
+/// solid that it is on. Where a sheet lacks an odd number of edges, few segments get more: with all numbers even the
+/// last box had 1,296 quads of 1,100.
 TEST(ConformingParts, BoxesCutByPlanesConform)
 {
   using Cut = std::pair<int, int>; // axis, and the first voxel beyond
