@@ -17,6 +17,7 @@ import json
 import multiprocessing
 import os
 import pathlib
+import re
 import resource
 import signal
 import subprocess
@@ -84,10 +85,10 @@ def runLimited(arguments, seconds):
 
 
 def lastMessage(output):
-    """The line of the output that tells why a run failed."""
+    """The line of the output that tells why a run failed, without the folders of files, which are this machine's."""
     lines = [l.strip() for l in output.splitlines() if l.strip()]
     telling = [l for l in lines if "error" in l.lower() or l.lower().startswith("quadrille:")]
-    return (telling or lines or [""])[-1][:300]
+    return re.sub(r"(?<=\s)/\S*/", "", (telling or lines or [""])[-1])[:300]
 
 
 def runModel(options, model, count, reference):
