@@ -24,6 +24,42 @@ std::pair<Index, Index> sortedPair(Index a, Index b)
   return { std::min(a, b), std::max(a, b) };
 }
 
+/// Gauss-Jordan elimination modulo 2. rows: of equations that have a solution, the right side at `unknowns`. The
+/// unknowns that are 1 in the solution in which all that the equations leave free are 0.
+std::vector<std::size_t> onesOfSolution(std::vector<std::vector<bool>> rows, std::size_t unknowns)
+{
+  std::vector<std::size_t> pivots; // of the first rows
+  for (std::size_t c = 0; c < unknowns && pivots.size() < rows.size(); ++c)
+  {
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(pivots.size());
+    const auto pivot =
+      std::find_if(begin, rows.end(), [&](const std::vector<bool>& row) { return row[c]; });
+    if (pivot == rows.end())
+    {
+      continue;
+    }
+    std::iter_swap(begin, pivot);
+    for (auto row = rows.begin(); row != rows.end(); ++row)
+    {
+      if (row != begin && (*row)[c])
+      {
+        std::transform(
+          row->begin(), row->end(), begin->begin(), row->begin(), std::not_equal_to<>());
+      }
+    }
+    pivots.push_back(c);
+  }
+  std::vector<std::size_t> ones;
+  for (std::size_t i = 0; i < pivots.size(); ++i)
+  {
+    if (rows[i][unknowns])
+    {
+      ones.push_back(pivots[i]);
+    }
+  }
+  return ones;
+}
+
 } // namespace
 
 void JointChains::findNodes()
@@ -321,32 +357,9 @@ void JointChains::makeSheetsEven()
     }
     row[segments] = lackOf(sheet) % 2 != 0;
   }
-  std::size_t solved = 0;
-  std::vector<std::size_t> pivots;
-  for (std::size_t c = 0; c < segments && solved < rows.size(); ++c)
+  for (const std::size_t c : onesOfSolution(std::move(rows), segments))
   {
-    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(solved);
-    const auto pivot =
-      std::find_if(begin, rows.end(), [&](const std::vector<bool>& row) { return row[c]; });
-    if (pivot == rows.end())
-    {
-      continue;
-    }
-    std::iter_swap(begin, pivot);
-    for (std::size_t r = 0; r < rows.size(); ++r)
-    {
-      if (r != solved && rows[r][c])
-      {
-        std::transform(rows[r].begin(), rows[r].end(), rows[solved].begin(), rows[r].begin(),
-          std::not_equal_to<>());
-      }
-    }
-    pivots.push_back(c);
-    ++solved;
-  }
-  for (std::size_t i = 0; i < pivots.size(); ++i)
-  {
-    segments_[order[pivots[i]]].edges += rows[i][segments] ? 1 : 0;
+    ++segments_[order[c]].edges;
   }
 }
 

@@ -3,6 +3,7 @@
 #include "Pipeline/Strategies.h"
 #include "Requests/Guides.h"
 
+#include "Base/Lists.h"
 #include "Features/FeatureFilter.h"
 #include "Mesh/Mesh.h"
 
@@ -25,9 +26,8 @@ constexpr int kFreedomRings = 2;
 void keepAlso(const std::vector<Index>& vertices, Plan& plan)
 {
   std::vector<Index>& kept = plan.levels.keptVertices;
-  kept.insert(kept.end(), vertices.begin(), vertices.end());
-  std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  append(kept, vertices);
+  sortUnique(kept);
 }
 
 /// Vertices of the surface that are on the level, within some rings round others.

@@ -218,8 +218,7 @@ std::string borderNotice(const RunContext& run, const Mesh& mesh, const Plan& pl
       borders.push_back(h);
     }
   }
-  std::sort(borders.begin(), borders.end());
-  borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
+  sortUnique(borders);
   const std::vector<GivenUpCurve> curves =
     givenUpCurves(mesh, borders, run.edgeLength, FeatureLoss::FailedMap);
   const auto longest = std::max_element(curves.begin(), curves.end(),

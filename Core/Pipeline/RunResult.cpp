@@ -3,6 +3,7 @@
 #include "Pipeline/RunResult.h"
 
 #include "Base/Clock.h"
+#include "Base/Lists.h"
 #include "GridMap/MapShape.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/Notices.h"
@@ -64,8 +65,7 @@ void addGivenUp(
     return;
   }
   std::vector<Index> edges = *plan.featuresGivenUp;
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sortUnique(edges);
   for (const GivenUpCurve& curve : givenUpCurves(mesh, edges, edgeLength, FeatureLoss::FailedMap))
   {
     givenUp.push_back(curve);
