@@ -361,7 +361,7 @@ void addFinish(CommandOptions& options, vtkQuadRemesh* filter)
     "smoothing-steps", "N", { 0, 1000 },
     [filter](long long steps) { filter->SetSmoothingSteps(static_cast<int>(steps)); },
     "sweeps in which the points move over the surface, where that does not lower the worst scaled "
-    "Jacobian round them, "
+    "Jacobian round them, and those of features and boundaries to the bends of their curve, "
     "before quads that are turned over at a corner are mended; 0: they stay where the map has them "
     "(default 5)");
   options.addChoice(

@@ -44,6 +44,43 @@ PointLists endsOfLines(const QuadMesh& quads)
     } };
 }
 
+/// The corner that a place is, as meshCorner().
+std::optional<Index> cornerAt(const SurfacePoint& place)
+{
+  for (Index i = 0; i < 3; ++i)
+  {
+    if (place.weights[i] == 1)
+    {
+      return 3 * place.face + i;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The same place by the lower half-edge of its edge.
+CurvePoint lowestOf(const Mesh& mesh, const CurvePoint& at)
+{
+  return mesh.twin[at.h] < at.h ? CurvePoint{ mesh.twin[at.h], 1 - at.t } : at;
+}
+
+/// A curve from `start` over `way` to `end`.
+QuadMoves::Span spanOf(const Vector3& start, const std::vector<Vector3>& way, const Vector3& end)
+{
+  QuadMoves::Span span;
+  const Vector3 chord = end - start;
+  const double squared = std::max(chord.squaredNorm(), std::numeric_limits<double>::min());
+  Vector3 last = start;
+  for (const Vector3& x : way)
+  {
+    const double part = std::clamp((x - start).dot(chord) / squared, 0.0, 1.0);
+    span.deviation = std::max(span.deviation, (x - start - part * chord).norm());
+    span.length += (x - last).norm();
+    last = x;
+  }
+  span.length += (end - last).norm();
+  return span;
+}
+
 /// Does the constrained curve run nearly straight through the vertex of corner h?
 bool isSmoothCurve(const Mesh& mesh, Index h)
 {
@@ -102,7 +139,7 @@ QuadMoves::Freedom QuadMoves::curveFreedom(Index p) const
     return Freedom::Fixed;
   }
   const std::optional<Index> corner = meshCorner(quads_, p);
-  const bool slides = corner ? isSmoothCurve(mesh_, *corner) : curvePoint(p).has_value();
+  const bool slides = corner ? isSmoothCurve(mesh_, *corner) : curvePoint(place(p)).has_value();
   return slides ? Freedom::Curve : Freedom::Fixed;
 }
 
@@ -149,9 +186,9 @@ void QuadMoves::computeNormals()
   }
 }
 
-std::optional<CurvePoint> QuadMoves::curvePoint(Index p) const
+std::optional<CurvePoint> QuadMoves::curvePoint(const SurfacePoint& place) const
 {
-  if (const std::optional<Index> corner = meshCorner(quads_, p))
+  if (const std::optional<Index> corner = cornerAt(place))
   {
     const std::vector<Index> edges = constrainedEdgesAt(mesh_, *corner);
     if (edges.empty())
@@ -161,7 +198,7 @@ std::optional<CurvePoint> QuadMoves::curvePoint(Index p) const
     const bool starts = mesh_.origin[edges[0]] == mesh_.origin[*corner];
     return CurvePoint{ edges[0], starts ? 0.0 : 1.0 };
   }
-  return locateOnCurve(mesh_, place(p));
+  return locateOnCurve(mesh_, place);
 }
 
 std::optional<SurfacePoint> QuadMoves::target(Index p, const Vector3& displacement) const
@@ -170,14 +207,89 @@ std::optional<SurfacePoint> QuadMoves::target(Index p, const Vector3& displaceme
   {
     return walkSurface(mesh_, place(p), displacement, kMaximumFaces);
   }
-  const std::optional<CurvePoint> from = curvePoint(p);
-  if (!from)
+  const std::optional<CurvePoint> from = curvePoint(place(p));
+  return from ? slide(p, displacement.dot(mesh_.edgeVector(from->h).normalized())) : std::nullopt;
+}
+
+std::optional<SurfacePoint> QuadMoves::slide(Index p, double length) const
+{
+  const std::optional<CurvePoint> from = curvePoint(place(p));
+  const std::optional<CurvePoint> to =
+    from ? walkCurve(mesh_, *from, length, kMaximumFaces) : std::nullopt;
+  return to ? std::optional<SurfacePoint>(to->onSurface()) : std::nullopt;
+}
+
+std::optional<QuadMoves::Spans> QuadMoves::spansAt(Index p, const SurfacePoint& place) const
+{
+  const std::optional<CurvePoint> at = curvePoint(place);
+  if (!at || lines_.size(p) != 2)
   {
     return std::nullopt;
   }
-  const double length = displacement.dot(mesh_.edgeVector(from->h).normalized());
-  const std::optional<CurvePoint> to = walkCurve(mesh_, *from, length, kMaximumFaces);
-  return to ? std::optional<SurfacePoint>(to->onSurface()) : std::nullopt;
+  const auto backwards = spanFrom(p, *at, false);
+  const auto forwards = spanFrom(p, *at, true);
+  if (!backwards || !forwards || backwards->first == forwards->first)
+  {
+    return std::nullopt;
+  }
+  return Spans{ backwards->second, forwards->second };
+}
+
+/// The neighbour of p that the curve comes to first, and the way to it.
+std::optional<std::pair<Index, QuadMoves::Span>> QuadMoves::spanFrom(
+  Index p, CurvePoint from, bool forwards) const
+{
+  const std::array<CurveEnd, 2> ends{ curveEnd(lines_.begin(p)[0]), curveEnd(lines_.begin(p)[1]) };
+  const Vector3 start = positionOf(mesh_, from.onSurface());
+  std::vector<Vector3> way;
+  for (int i = 0; i < kMaximumFaces; ++i)
+  {
+    const CurvePoint at = lowestOf(mesh_, from);
+    const bool rises = (at.h == from.h) == forwards;
+    const auto ahead = [&](const CurveEnd& end)
+    { return end.edge == at.h ? (rises ? end.t - at.t : at.t - end.t) : -1.0; };
+    const CurveEnd& nearer =
+      ahead(ends[1]) > 0 && !(ahead(ends[0]) > 0 && ahead(ends[0]) < ahead(ends[1])) ? ends[1]
+                                                                                     : ends[0];
+    if (ahead(nearer) > 0)
+    {
+      return std::make_pair(nearer.point, spanOf(start, way, quads_.points[nearer.point]));
+    }
+    const Index vertex = forwards ? mesh_.target(from.h) : mesh_.origin[from.h];
+    for (const CurveEnd& end : ends)
+    {
+      if (end.vertex == vertex)
+      {
+        return std::make_pair(end.point, spanOf(start, way, quads_.points[end.point]));
+      }
+    }
+    way.push_back(mesh_.position[vertex]);
+    const std::optional<Index> next = continueCurve(mesh_, from.h, forwards);
+    if (!next)
+    {
+      return std::nullopt;
+    }
+    forwards = mesh_.origin[*next] == vertex;
+    from = { *next, forwards ? 0.0 : 1.0 };
+  }
+  return std::nullopt;
+}
+
+QuadMoves::CurveEnd QuadMoves::curveEnd(Index n) const
+{
+  CurveEnd end;
+  end.point = n;
+  if (const std::optional<Index> corner = cornerAt(place(n)))
+  {
+    end.vertex = mesh_.origin[*corner];
+  }
+  else if (const std::optional<CurvePoint> on = locateOnCurve(mesh_, place(n)))
+  {
+    const CurvePoint at = lowestOf(mesh_, *on);
+    end.edge = at.h;
+    end.t = at.t;
+  }
+  return end;
 }
 
 void QuadMoves::move(Index p, const SurfacePoint& place, const Vector3& position)

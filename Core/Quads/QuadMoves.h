@@ -48,6 +48,18 @@ public:
   /// position: of the place.
   void move(Index p, const SurfacePoint& place, const Vector3& position);
 
+  /// How the curve through a point runs on to the next points of the quads on it, backwards and forwards.
+  struct Span
+  {
+    double length = 0;    ///< along the curve
+    double deviation = 0; ///< largest distance of the curve from the edge of the quads
+  };
+  using Spans = std::array<Span, 2>;
+  /// If p, which slides along a curve, were at this place of it; none where it meets another point than its neighbours.
+  std::optional<Spans> spansAt(Index p, const SurfacePoint& place) const;
+  /// Where p comes when it slides by so much along its curve, backwards when negative.
+  std::optional<SurfacePoint> slide(Index p, double length) const;
+
   /// Of the face that p lies on.
   Vector3 normalAt(Index p) const { return faceNormal(quads_.sourceFace[p]); }
   /// A direction in the face that p lies on.
@@ -107,7 +119,15 @@ public:
 private:
   Freedom freedomOf(Index p, const std::vector<Index>& fixedVertices) const;
   Freedom curveFreedom(Index p) const;
-  std::optional<CurvePoint> curvePoint(Index p) const;
+  std::optional<CurvePoint> curvePoint(const SurfacePoint& place) const;
+  /// A point of a curve: on this vertex of the mesh, or on this edge (by its lower half-edge) at t.
+  struct CurveEnd
+  {
+    Index point = kInvalidIndex, vertex = kInvalidIndex, edge = kInvalidIndex;
+    double t = 0;
+  };
+  CurveEnd curveEnd(Index n) const;
+  std::optional<std::pair<Index, Span>> spanFrom(Index p, CurvePoint from, bool forwards) const;
   Vector3 faceNormal(Index f) const;
   void computeNormals();
 

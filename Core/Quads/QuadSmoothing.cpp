@@ -23,6 +23,15 @@ constexpr double kShortQuadEdge = 0.35;
 /// Below this a quad is worth a search in all directions.
 constexpr double kBadShape = 0.4;
 
+/// Edges of the quads no farther off their curve than this part of their length are near enough.
+constexpr double kCloseToCurve = 0.08;
+/// For the sake of a curve shapes may become as bad as this.
+constexpr double kShapeOnCurve = 0.3;
+/// A slide has to lessen the distance of the edges from their curve to this part.
+constexpr double kLeastGainOnCurve = 0.97;
+/// Parts of the way to the next point of a curve, backwards and forwards, that are tried.
+constexpr double kPartsOfSpan[] = { 0.6, 0.4, 0.25, 0.12, 0.05 };
+
 class Smoother
 {
 public:
@@ -72,7 +81,7 @@ private:
     Quality quality;
   };
 
-  /// A point of a curve slides only where the curve goes straight on in the quad mesh.
+  /// A point of a curve slides for the sake of shape only where the curve goes straight on in the quad mesh.
   bool mayMove(Index p) const
   {
     return moves_.freedom(p) == QuadMoves::Freedom::Surface ||
@@ -108,7 +117,7 @@ private:
         classes_.emplace_back();
       }
       colourOf[p] = c;
-      if (mayMove(p))
+      if (moves_.freedom(p) != QuadMoves::Freedom::Fixed)
       {
         classes_[c].push_back(p);
       }
@@ -129,6 +138,69 @@ private:
   }
 
   bool improve(Index p)
+  {
+    const bool follows = moves_.freedom(p) == QuadMoves::Freedom::Curve && followCurve(p);
+    return (mayMove(p) && improveShape(p)) || follows;
+  }
+
+  /// Slides p to where the two edges of its curve lie nearest to the curve.
+  bool followCurve(Index p)
+  {
+    const std::optional<QuadMoves::Spans> spans = moves_.spansAt(p, moves_.place(p));
+    if (!spans)
+    {
+      return false;
+    }
+    const double before = deviationOf(*spans);
+    if (before < closeTo(*spans))
+    {
+      return false;
+    }
+    const Quality quality = qualityAt(p, quads_.points[p]);
+    double least = kLeastGainOnCurve * before;
+    std::optional<SurfacePoint> best;
+    const auto trySlide = [&](double length)
+    {
+      const std::optional<SurfacePoint> place = moves_.slide(p, length);
+      const std::optional<QuadMoves::Spans> there =
+        place ? moves_.spansAt(p, *place) : std::nullopt;
+      if (!there || !(deviationOf(*there) < least))
+      {
+        return;
+      }
+      const Vector3 position = positionOf(moves_.mesh(), *place);
+      const Quality after = qualityAt(p, position);
+      if (!shrinksShortEdge(p, position) &&
+        (after.worst >= kShapeOnCurve || after.betterThan(quality)))
+      {
+        least = deviationOf(*there);
+        best = place;
+      }
+    };
+    for (const double part : kPartsOfSpan)
+    {
+      trySlide(-part * (*spans)[0].length);
+      trySlide(part * (*spans)[1].length);
+    }
+    if (best)
+    {
+      moves_.move(p, *best, positionOf(moves_.mesh(), *best));
+    }
+    return best.has_value();
+  }
+
+  static double deviationOf(const QuadMoves::Spans& spans)
+  {
+    return std::max(spans[0].deviation, spans[1].deviation);
+  }
+
+  /// What is near enough to the curve.
+  static double closeTo(const QuadMoves::Spans& spans)
+  {
+    return kCloseToCurve * (spans[0].length + spans[1].length) / 2;
+  }
+
+  bool improveShape(Index p)
   {
     const Quality before = qualityAt(p, quads_.points[p]);
     if (before.worst > options_.goodShape)
@@ -197,10 +269,27 @@ private:
       return;
     }
     const Quality quality = qualityAt(p, position);
-    if (quality.betterThan(best.quality))
+    if (quality.betterThan(best.quality) &&
+      (best.quality.worst < kShapeOnCurve || !leavesCurve(p, *place)))
     {
       best = { *place, position, quality };
     }
+  }
+
+  /// Would the edges of p on its curve lie farther off the curve than now, and not close to it?
+  bool leavesCurve(Index p, const SurfacePoint& place) const
+  {
+    if (moves_.freedom(p) != QuadMoves::Freedom::Curve)
+    {
+      return false;
+    }
+    const std::optional<QuadMoves::Spans> now = moves_.spansAt(p, moves_.place(p));
+    const std::optional<QuadMoves::Spans> there = moves_.spansAt(p, place);
+    if (!now || !there)
+    {
+      return now.has_value();
+    }
+    return deviationOf(*there) > std::max(deviationOf(*now), closeTo(*now));
   }
 
   Quality qualityAt(Index p, const Vector3& position) const

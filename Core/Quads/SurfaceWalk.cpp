@@ -88,18 +88,6 @@ void advance(std::array<double, 3>& weights, const std::array<double, 3>& rates,
   }
 }
 
-/// The constrained edge other than `edge` at the vertex where it is left; none at ends and forks.
-std::optional<Index> continueCurve(const Mesh& mesh, Index edge, bool atTarget)
-{
-  const std::vector<Index> edges = constrainedEdgesAt(mesh, atTarget ? Mesh::next(edge) : edge);
-  if (edges.size() != 2)
-  {
-    return std::nullopt;
-  }
-  const Index lowest = std::min(edge, mesh.twin[edge]);
-  return edges[0] == lowest ? edges[1] : edges[0];
-}
-
 } // namespace
 
 Vector3 positionOf(const Mesh& mesh, const SurfacePoint& point)
@@ -187,6 +175,17 @@ std::optional<CurvePoint> locateOnCurve(const Mesh& mesh, const SurfacePoint& po
     }
   }
   return std::nullopt;
+}
+
+std::optional<Index> continueCurve(const Mesh& mesh, Index edge, bool atTarget)
+{
+  const std::vector<Index> edges = constrainedEdgesAt(mesh, atTarget ? Mesh::next(edge) : edge);
+  if (edges.size() != 2)
+  {
+    return std::nullopt;
+  }
+  const Index lowest = std::min(edge, mesh.twin[edge]);
+  return edges[0] == lowest ? edges[1] : edges[0];
 }
 
 std::optional<CurvePoint> walkCurve(

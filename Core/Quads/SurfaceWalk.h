@@ -41,6 +41,9 @@ struct CurvePoint
 /// Where a point of a constrained edge lies; none when it lies on no such edge or on a vertex.
 std::optional<CurvePoint> locateOnCurve(const Mesh& mesh, const SurfacePoint& point);
 
+/// The constrained edge other than `edge` at the vertex where it is left; none at ends and forks.
+std::optional<Index> continueCurve(const Mesh& mesh, Index edge, bool atTarget);
+
 /// Walks along the curve of constrained edges by `length` (backwards when negative; forwards is the
 /// direction of h). None where the curve ends, forks, or has more than maximumEdges edges.
 std::optional<CurvePoint> walkCurve(

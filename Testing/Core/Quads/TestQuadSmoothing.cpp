@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMaps.h"
 
+#include "Base/Angles.h"
 #include "Extraction/Extraction.h"
 #include "Quads/QuadShape.h"
 #include "Quads/QuadSmoothing.h"
@@ -106,6 +107,50 @@ TEST(QuadSmoothing, BoundarySlidesAndCornersStay)
     }
   }
   EXPECT_EQ(corners, 4);
+}
+
+// A plate with a bend between two points of the quads, as arcs of small holes have them: one slides to it.
+TEST(QuadSmoothing, PointsOfACurveSlideToItsBends)
+{
+  GridMapCase c = crumpledPlane(6, 5, 2, 0);
+  const double angle = 25 * kPi / 180;
+  for (Index v = 0; v < c.mesh.vertexCount(); ++v)
+  {
+    Vector3& p = c.mesh.position.edit()[v];
+    const double beyond = std::max(p.x() - 5, 0.0);
+    p = Vector3(std::min(p.x(), 5.0) + std::cos(angle) * beyond, p.y(), std::sin(angle) * beyond);
+  }
+  QuadMesh mesh = extractRaw(c);
+  const auto distanceOfBends = [&]()
+  {
+    double most = 0;
+    for (const double y : { 0.0, 10.0 })
+    {
+      const Vector3 bend(5, y, 0);
+      double least = 10;
+      for (const QuadLine& line : mesh.lines)
+      {
+        const Vector3 a = mesh.points[line.a];
+        const Vector3 edge = mesh.points[line.b] - a;
+        const double part = std::clamp((bend - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (bend - a - part * edge).norm());
+      }
+      most = std::max(most, least);
+    }
+    return most;
+  };
+  ASSERT_GT(distanceOfBends(), 0.2);
+  const SmoothingResult result = smoothQuads(c.mesh, mesh, {});
+  EXPECT_GT(result.moves, 0u);
+  EXPECT_LT(distanceOfBends(), 0.16);
+  EXPECT_GT(worstShape(mesh), 0.3);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    const SurfacePoint place{ mesh.sourceFace[i], mesh.sourceWeights[i] };
+    EXPECT_NEAR((positionOf(c.mesh, place) - mesh.points[i]).norm(), 0, 1e-12);
+    EXPECT_TRUE(!mesh.onBoundary[i] || meshCorner(mesh, static_cast<Index>(i)) ||
+      locateOnCurve(c.mesh, place));
+  }
 }
 
 TEST(QuadSmoothing, FeaturesOfABlockStay)
