@@ -4,11 +4,13 @@
 
 #include "pqUndoStack.h"
 #include "vtkAlgorithm.h"
+#include "vtkCleanPolyData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkNew.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPolyData.h"
+#include "vtkSMIntVectorProperty.h"
 #include "vtkSMParaViewPipelineController.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxyIterator.h"
@@ -17,12 +19,14 @@
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
 #include "vtkSmartPointer.h"
+#include "vtkStripper.h"
 #include "vtkTable.h"
 #include "vtkVariant.h"
 
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <set>
 
 namespace quadrille
@@ -127,6 +131,35 @@ void forEach(vtkDataObject* data, const std::function<void(Type&)>& visit)
   }
 }
 
+/// The lines of a cut put together, those of them that close.
+std::vector<std::vector<Place>> closedCurves(vtkPolyData& cut)
+{
+  vtkNew<vtkCleanPolyData> merged; // pieces of several ranks and blocks
+  merged->SetInputData(&cut);
+  vtkNew<vtkStripper> joined;
+  joined->SetInputConnection(merged->GetOutputPort());
+  joined->JoinContiguousSegmentsOn();
+  joined->SetMaximumLength(std::numeric_limits<int>::max());
+  joined->Update();
+  vtkPolyData* lines = joined->GetOutput();
+  std::vector<std::vector<Place>> curves;
+  for (vtkIdType i = 0; i < lines->GetNumberOfCells(); ++i)
+  {
+    const vtkIdType* ids = nullptr;
+    vtkIdType size = 0;
+    lines->GetCellPoints(i, size, ids);
+    if (size > 3 && ids[0] == ids[size - 1])
+    {
+      curves.emplace_back(static_cast<std::size_t>(size) - 1);
+      for (vtkIdType k = 0; k + 1 < size; ++k)
+      {
+        lines->GetPoint(ids[k], curves.back()[static_cast<std::size_t>(k)].data());
+      }
+    }
+  }
+  return curves;
+}
+
 vtkSMProxySelectionModel* selectionOf(vtkSMSessionProxyManager* manager)
 {
   return manager->GetSelectionModel("ActiveSources");
@@ -178,8 +211,15 @@ vtkSMSourceProxy* addConstraint(vtkSMSourceProxy* filter, const NewConstraint& c
   controller->PreInitializeProxy(made);
   for (const auto& [name, values] : constraint.values)
   {
-    vtkSMPropertyHelper(made, name.c_str())
-      .Set(values.data(), static_cast<unsigned int>(values.size()));
+    const auto count = static_cast<unsigned int>(values.size());
+    vtkSMPropertyHelper property(made, name.c_str());
+    if (vtkSMIntVectorProperty::SafeDownCast(made->GetProperty(name.c_str())))
+    {
+      const std::vector<int> numbers(values.begin(), values.end());
+      property.Set(numbers.data(), count);
+      continue;
+    }
+    property.Set(values.data(), count);
   }
   controller->PostInitializeProxy(made);
   const vtkSmartPointer<vtkSMProxy> selected = selectionOf(manager)->GetCurrentProxy();
@@ -275,6 +315,47 @@ std::optional<double> edgeLength(vtkSMSourceProxy* filter)
       }
     });
   return count > 0 ? std::optional<double>(sum / count) : std::nullopt;
+}
+
+std::vector<Place> closedCut(vtkSMSourceProxy* source, const Place& origin, const Place& normal)
+{
+  const pqScopedUndoExclude noStepOfTheUser;
+  vtkSMSessionProxyManager* manager = source->GetSessionProxyManager();
+  auto plane = vtkSmartPointer<vtkSMProxy>::Take(manager->NewProxy("implicit_functions", "Plane"));
+  auto cut = vtkSmartPointer<vtkSMSourceProxy>::Take(
+    vtkSMSourceProxy::SafeDownCast(manager->NewProxy("filters", "Cut")));
+  if (!plane || !cut)
+  {
+    return {};
+  }
+  vtkSMPropertyHelper(plane, "Origin").Set(origin.data(), 3);
+  vtkSMPropertyHelper(plane, "Normal").Set(normal.data(), 3);
+  plane->UpdateVTKObjects();
+  vtkSMPropertyHelper(cut, "Input").Set(source);
+  vtkSMPropertyHelper(cut, "CutFunction").Set(plane);
+  vtkSMPropertyHelper(cut, "ContourValues").Set(0, 0.0);
+  cut->UpdateVTKObjects();
+  cut->UpdatePipeline();
+  std::vector<Place> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  forEach<vtkPolyData>(fetched(cut, 0),
+    [&](vtkPolyData& data)
+    {
+      for (std::vector<Place>& curve : closedCurves(data))
+      {
+        for (const Place& place : curve)
+        {
+          const double away =
+            std::hypot(place[0] - origin[0], place[1] - origin[1], place[2] - origin[2]);
+          if (away < least)
+          {
+            least = away;
+            nearest = curve; // the rest of it changes nothing
+          }
+        }
+      }
+    });
+  return nearest;
 }
 
 std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::string& kind)

@@ -154,6 +154,12 @@ std::vector<std::optional<Place>> placesUnder(
   return places;
 }
 
+Place directionThrough(vtkSMRenderViewProxy* view, const Pixel& pixel)
+{
+  const std::array<double, 6> ray = rayThrough(view->GetRenderer(), pixel);
+  return { ray[3] - ray[0], ray[4] - ray[1], ray[5] - ray[2] };
+}
+
 Pixel pixelOf(vtkSMRenderViewProxy* view, const Place& place)
 {
   vtkRenderer* renderer = view->GetRenderer();

@@ -23,6 +23,9 @@ vtkSMSourceProxy* sourceUnder(vtkSMRenderViewProxy* view, const Pixel& pixel);
 std::vector<std::optional<Place>> placesUnder(
   vtkSMRenderViewProxy* view, const std::vector<Pixel>& pixels, vtkSMSourceProxy* source);
 
+/// The direction in which the eye looks through a pixel, of any length.
+Place directionThrough(vtkSMRenderViewProxy* view, const Pixel& pixel);
+
 /// Where a place lies in the view, hidden or not.
 Pixel pixelOf(vtkSMRenderViewProxy* view, const Place& place);
 

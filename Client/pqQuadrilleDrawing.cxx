@@ -14,6 +14,7 @@
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "vtkCommand.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
@@ -46,7 +47,10 @@ constexpr double kNearEnd = 10;         // pixels between the ends of a line tha
 constexpr double kLineTolerance = 0.03; // edge lengths that the line may lose by having few points
 constexpr double kFarStep = 2;          // edge lengths between places side by side
 constexpr std::size_t kMostUnseen =
-  2; // samples side by side without a place, with which a line goes on
+  2;                              // samples side by side without a place, with which a line goes on
+constexpr double kBallReach = 14; // pixels from the centre of a ball
+constexpr double kSameBall = 0.5; // edge lengths
+constexpr int kBallsOutput = 4;
 constexpr int kConstraintsOutput = 5;
 constexpr float kBeforeAllOthers = 10; // priority of observers
 constexpr int kMessageTime = 30000;    // milliseconds
@@ -94,6 +98,17 @@ QString hintOf(Tool tool)
       return "Valence: click on the surface with the left button; digits and wheel change the "
              "number. Escape ends "
              "it.";
+    case Tool::Move:
+      return "Move: drag a ball, an irregular vertex, with the left button; onto another one it "
+             "joins with it. Escape "
+             "ends it.";
+    case Tool::Connect:
+      return "Connect: click on two balls with the left button, or drag from one to the other. "
+             "Escape ends it.";
+    case Tool::Loop:
+      return "Loop: drag across a body for a loop round it, or back to where the drag began, with "
+             "the left button. "
+             "Escape ends it.";
     case Tool::Feature:
       return "Feature: drag over the surface with the left button where edges of the quads are to "
              "run. Escape ends "
@@ -140,6 +155,7 @@ void pqQuadrilleDrawing::setTool(Tool tool)
   this->stopDrawing();
   this->stopListening();
   this->Last.reset();
+  this->FirstBall.reset();
   const bool isOther = this->Current != tool;
   this->Current = tool;
   this->listenTo(pqActiveObjects::instance().activeView());
@@ -147,6 +163,10 @@ void pqQuadrilleDrawing::setTool(Tool tool)
   if (tool != Tool::None)
   {
     qApp->installEventFilter(this);
+  }
+  if (tool == Tool::Move || tool == Tool::Connect)
+  {
+    this->showBalls();
   }
   if (isOther)
   {
@@ -166,6 +186,8 @@ void pqQuadrilleDrawing::listenTo(pqView* view)
   }
   this->View = renderView;
   this->Overlay = new pqQuadrilleOverlay(renderView->widget());
+  QObject::connect(
+    renderView, &pqView::endRender, this->Overlay, [this] { this->showFirstBall(); });
   renderView->widget()->setCursor(Qt::CrossCursor);
   vtkRenderWindowInteractor* interactor = this->viewProxy()->GetInteractor();
   const auto observe = [this, interactor](unsigned long event,
@@ -373,6 +395,18 @@ void pqQuadrilleDrawing::finish()
     {
       this->finishValence(filter);
     }
+    else if (this->Current == Tool::Move)
+    {
+      this->finishMove(filter);
+    }
+    else if (this->Current == Tool::Connect)
+    {
+      this->finishConnection(filter);
+    }
+    else if (this->Current == Tool::Loop)
+    {
+      this->finishLoop(filter);
+    }
     else
     {
       this->finishLine(filter);
@@ -380,6 +414,7 @@ void pqQuadrilleDrawing::finish()
   }
   this->stopDrawing();
   this->IsBusy = false;
+  this->showFirstBall();
 }
 
 //-----------------------------------------------------------------------------
@@ -442,6 +477,190 @@ void pqQuadrilleDrawing::finishLine(vtkSMSourceProxy* filter)
   }
   const char* source = this->Current == Tool::Feature ? "QuadFeatureCurve" : "QuadStroke";
   this->perform(filter, { source, { { "Points", coordinatesOf(*line) } } });
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::finishLoop(vtkSMSourceProxy* filter)
+{
+  if (quadrille::lengthOf(this->Path) < kClick * this->pixelRatio())
+  {
+    say("That was a click: drag across a body, or round something.");
+    return;
+  }
+  if (quadrille::isClosedPath(this->Path, kNearEnd * this->pixelRatio()))
+  {
+    const std::optional<std::vector<Place>> line = this->drawnLine(filter, true);
+    if (line)
+    {
+      this->perform(filter, { "QuadLoop", { { "Points", coordinatesOf(*line) } } });
+    }
+    return;
+  }
+  // The plane through the line and the eye cuts the body; what is behind cannot be drawn.
+  const std::vector<Pixel> pixels =
+    quadrille::evenPath(this->Path, kSampleStep * this->pixelRatio());
+  std::vector<Place> seen;
+  std::vector<Pixel> seenPixels;
+  const std::vector<std::optional<Place>> places =
+    quadrille::placesUnder(this->viewProxy(), pixels, this->Surface);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    if (places[i])
+    {
+      seen.push_back(*places[i]);
+      seenPixels.push_back(pixels[i]);
+    }
+  }
+  const std::size_t middle = seen.size() / 2;
+  std::vector<Place> curve;
+  if (seen.size() > 2)
+  {
+    const Place into = quadrille::directionThrough(this->viewProxy(), seenPixels[middle]);
+    Place along;
+    for (std::size_t c = 0; c < along.size(); ++c)
+    {
+      along[c] = seen.back()[c] - seen.front()[c];
+    }
+    Place normal;
+    vtkMath::Cross(along.data(), into.data(), normal.data());
+    curve = quadrille::closedCut(this->Surface, seen[middle], normal);
+  }
+  if (curve.size() < 3)
+  {
+    say("No loop closes there: drag across a body whose other side closes, or back to where the "
+        "drag began.");
+    return;
+  }
+  const double edge = quadrille::edgeLength(filter).value_or(0);
+  std::vector<Place> closed = curve;
+  closed.push_back(curve.front());
+  std::vector<Place> line;
+  for (const std::size_t id : quadrille::keptPlaces(closed, kLineTolerance * edge))
+  {
+    line.push_back(closed[id]);
+  }
+  line.pop_back();
+  this->perform(filter, { "QuadLoop", { { "Points", coordinatesOf(line) } } });
+}
+
+//-----------------------------------------------------------------------------
+std::optional<Place> pqQuadrilleDrawing::ballAt(
+  vtkSMSourceProxy* filter, const Pixel& pixel, const char* ifNone)
+{
+  const std::vector<Place> balls = quadrille::irregularVertices(filter);
+  const double edge = quadrille::edgeLength(filter).value_or(0);
+  const std::optional<std::size_t> found = quadrille::nearestSeen(this->viewProxy(), this->Surface,
+    balls, pixel, kBallReach * this->pixelRatio(), kSameBall * edge);
+  if (!found)
+  {
+    say(ifNone);
+    return std::nullopt;
+  }
+  return balls[*found];
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::finishMove(vtkSMSourceProxy* filter)
+{
+  const std::optional<Place> from =
+    this->ballAt(filter, this->Path.front(), "There is no ball here: press on a ball and drag it.");
+  if (!from)
+  {
+    return;
+  }
+  if (quadrille::lengthOf(this->Path) < kClick * this->pixelRatio())
+  {
+    say("That was a click: drag the ball to where it is to go.");
+    return;
+  }
+  std::optional<Place> to =
+    quadrille::placesUnder(this->viewProxy(), { this->Path.back() }, this->Surface).front();
+  if (!to)
+  {
+    say("The ball was dropped beside the surface: it stays where it was.");
+    return;
+  }
+  const double near = kSameBall * quadrille::edgeLength(filter).value_or(0);
+  double least = near;
+  for (const Place& ball : quadrille::irregularVertices(filter))
+  {
+    const double away = std::sqrt(vtkMath::Distance2BetweenPoints(ball.data(), to->data()));
+    if (ball != *from && away <= least)
+    {
+      least = away;
+      to = ball;
+    }
+  }
+  this->perform(filter,
+    { "QuadMove", { { "From", coordinatesOf({ *from }) }, { "To", coordinatesOf({ *to }) } } });
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::finishConnection(vtkSMSourceProxy* filter)
+{
+  const std::optional<Place> ball =
+    this->ballAt(filter, this->Path.front(), "There is no ball here: click on a ball.");
+  if (!ball)
+  {
+    return;
+  }
+  std::vector<Place> line;
+  if (quadrille::lengthOf(this->Path) >= kBallReach * this->pixelRatio())
+  {
+    // A drag says which way round.
+    const std::optional<Place> end = this->ballAt(filter, this->Path.back(),
+      "The drag does not end on a ball: drag from one ball to another one.");
+    const std::optional<std::vector<Place>> drawn = this->drawnLine(filter, false);
+    if (!end || !drawn)
+    {
+      return;
+    }
+    line = *drawn;
+    line.front() = *ball;
+    line.back() = *end;
+  }
+  else if (!this->FirstBall)
+  {
+    this->FirstBall = ball;
+    say("This is the one end: click on the ball at the other end.");
+    return;
+  }
+  else
+  {
+    line = { *this->FirstBall, *ball };
+  }
+  this->FirstBall.reset();
+  if (line.front() == line.back())
+  {
+    say("Both ends are the same ball: click on two different ones.");
+    return;
+  }
+  this->perform(filter, { "QuadConnection", { { "Points", coordinatesOf(line) } } });
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::showBalls()
+{
+  pqPipelineSource* active = pqActiveObjects::instance().activeSource();
+  auto* selected = vtkSMSourceProxy::SafeDownCast(active ? active->getProxy() : nullptr);
+  vtkSMSourceProxy* filter = quadrille::remeshOf(selected, selected);
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  if (this->View && filter && controller->GetVisibility(filter, 0, this->viewProxy()))
+  {
+    const pqScopedUndoExclude noStepOfTheUser;
+    controller->SetVisibility(filter, kBallsOutput, this->viewProxy(), true);
+    this->View->render();
+  }
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::showFirstBall()
+{
+  if (this->FirstBall && this->View && !this->IsDrawing)
+  {
+    this->Path = { quadrille::pixelOf(this->viewProxy(), *this->FirstBall) };
+    this->showPath();
+  }
 }
 
 //-----------------------------------------------------------------------------

@@ -87,7 +87,15 @@ private:
   /// A line along what was drawn; none, with a word to the user, where it cannot be had.
   std::optional<std::vector<quadrille::Place>> drawnLine(vtkSMSourceProxy* filter, bool isClosed);
   void finishLine(vtkSMSourceProxy* filter);
+  void finishLoop(vtkSMSourceProxy* filter);
   void finishValence(vtkSMSourceProxy* filter);
+  void finishMove(vtkSMSourceProxy* filter);
+  void finishConnection(vtkSMSourceProxy* filter);
+  /// The irregular vertex that is seen at the pixel, or none.
+  std::optional<quadrille::Place> ballAt(
+    vtkSMSourceProxy* filter, const quadrille::Pixel& pixel, const char* ifNone);
+  /// Balls can be pressed where they are seen.
+  void showBalls();
 
   void perform(vtkSMSourceProxy* filter, const quadrille::NewConstraint& constraint);
   void applyValence();
@@ -99,6 +107,7 @@ private:
   quadrille::Pixel mouse() const;
   double pixelRatio() const;
   void showPath();
+  void showFirstBall();
   vtkSMRenderViewProxy* viewProxy() const;
 
   Tool Current = Tool::None;
@@ -111,6 +120,8 @@ private:
   bool IsBusy = false;                      ///< what was drawn is being made
   vtkWeakPointer<vtkSMSourceProxy> Surface; ///< that is drawn on
   std::vector<quadrille::Pixel> Path;
+
+  std::optional<quadrille::Place> FirstBall; ///< of a connection whose second end is still to come
 
   /// The valence that was clicked last, which wheel and digits change as long as the mouse stays there.
   struct Clicked

@@ -24,6 +24,15 @@ const Button kButtons[] = {
   { pqQuadrilleDrawing::Tool::Valence, "Valence",
     "Valence: click on the surface; so many quads meet there as the number in this bar says (also: "
     "digits, wheel)" },
+  { pqQuadrilleDrawing::Tool::Move, "Move",
+    "Move: drag an irregular vertex (a ball) over the surface; onto another one it joins with it" },
+  { pqQuadrilleDrawing::Tool::Connect, "Connect",
+    "Connect: click on two irregular vertices (balls), or drag from one to the other; a straight "
+    "chain of edges joins "
+    "them" },
+  { pqQuadrilleDrawing::Tool::Loop, "Loop",
+    "Loop: drag across a body for a chain of edges that closes round it, or back to where the drag "
+    "began" },
   { pqQuadrilleDrawing::Tool::Feature, "Feature",
     "Feature: drag over the surface; the line becomes edges of the quads" },
 };

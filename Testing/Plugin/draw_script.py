@@ -6,12 +6,13 @@ Nothing here is asked of the drawing tools: places under the mouse are rays from
 measured by their points.
 """
 import math
+import random
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import places_script  # whose questions are answered, too
-from places_script import is_clear, output, quads, seen_at
+from places_script import is_clear, output, quads, seen_at, view
 
 
 def quad_arrays():
@@ -90,6 +91,24 @@ def nearest_of_valence(place, valence):
     return float(numpy.linalg.norm(those - place, axis=1).min()) if len(those) else math.inf
 
 
+def off_edges(expected):
+    """The largest distance of places from the edges of the quads."""
+    points, corners = quad_arrays()
+    starts, ends = points[corners].reshape(-1, 3), points[numpy.roll(corners, -1, axis=1)].reshape(-1, 3)
+    along = ends - starts
+    worst = 0
+    for place in numpy.array(expected):
+        share = numpy.clip(((place - starts) * along).sum(axis=1) / (along ** 2).sum(axis=1), 0, 1)
+        worst = max(worst, numpy.linalg.norm(starts + share[:, None] * along - place, axis=1).min())
+    return float(worst)
+
+
+def valence_at(place):
+    """Of the point of the quads nearest to a place."""
+    points, count = valences()
+    return int(count[((points - place) ** 2).sum(axis=1).argmin()])
+
+
 def clear_path(start, angle, length, bend, near, step=6):
     """Pixels along an arc that clearly sees the quads everywhere, with what they see; None where it does not."""
     x, y = start
@@ -98,12 +117,25 @@ def clear_path(start, angle, length, bend, near, step=6):
         pixel = round(x), round(y)
         place = seen_at(pixel)
         if place is None or not is_clear(pixel, place, near) or \
-                (found and math.dist(found[-1][1], place) > near * step):
+                (found and math.dist(found[-1][1], place) > 2 * near):
             return None
         found.append((pixel, tuple(place)))
         x, y = x + step * math.cos(angle), y + step * math.sin(angle)
         angle += bend * step
     return found
+
+
+def random_path(seed, shortest, longest, bend, near):
+    """Of random arcs the first one that clearly sees the quads everywhere; None where there is hardly any."""
+    chance = random.Random(seed)
+    width, height = view.ViewSize
+    for _ in range(400):
+        start = chance.uniform(20, width - 20), chance.uniform(20, height - 20)
+        found = clear_path(start, chance.uniform(0, 2 * math.pi), chance.uniform(shortest, longest),
+                           chance.uniform(-bend, bend), near)
+        if found:
+            return found
+    return None
 
 
 def last_row(kind):

@@ -32,6 +32,7 @@ class Session(count_actions.Window):
     """ParaView under a window manager, and a pipeline made in it."""
 
     script = "places_script.py"
+    surface = SURFACE
 
     def __init__(self, folder, programs):
         self.programs = programs
@@ -76,7 +77,7 @@ class Session(count_actions.Window):
     def open(self):
         """File > Open, Apply, Quad Remesh, Apply."""
         self.xdotool("mousemove", *self.middle(), "key", "ctrl+o", "sleep", 2)
-        self.xdotool("type", "--delay", 20, str(SURFACE))
+        self.xdotool("type", "--delay", 20, str(self.surface))
         self.xdotool("sleep", 1, "key", "Return", "sleep", 1)
         self.wait_until("simple.GetActiveSource() is not None")
         self.apply()
