@@ -22,6 +22,8 @@ vtkStandardNewMacro(vtkQuadSurfacePlaces);
 namespace
 {
 
+constexpr double kTolerance =
+  1e-5; // of the size of what is selected: rays to a vertex would slip between its cells
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// Where each ray first hits the cells, as the share of its length; what is nearer already stays.
@@ -35,12 +37,13 @@ void shorten(std::vector<double>& hits, const Rays& rays, vtkDataSet* cells)
   vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(cells);
   locator->BuildLocator();
+  const double tolerance = kTolerance * cells->GetLength();
   for (std::size_t i = 0; i < rays.size(); ++i)
   {
     double share = 0, place[3], local[3];
     int part = 0;
     if (locator->IntersectWithLine(
-          rays[i].data(), rays[i].data() + 3, 0, share, place, local, part) != 0)
+          rays[i].data(), rays[i].data() + 3, tolerance, share, place, local, part) != 0)
     {
       hits[i] = std::min(hits[i], share);
     }

@@ -77,7 +77,8 @@ class Session(test_places.Session):
     def path(self, chance, shortest=80, longest=240, bend=0.006):
         """Pixels that clearly see the quads, and what they see, along a random arc."""
         for _ in range(20):
-            found = self.value(f"random_path({chance.randrange(10 ** 6)}, {shortest}, {longest}, {bend}, {LINE_NEAR * self.edge})")
+            numbers = chance.randrange(10 ** 6), shortest, longest, bend, LINE_NEAR * self.edge
+            found = self.value(f"random_path{numbers!r}")
             if found:
                 return [tuple(p) for p, _ in found], [tuple(q) for _, q in found]
             test_places.random_view(self, chance)
