@@ -18,8 +18,8 @@ namespace quadrille
 /// What is drawn at the pixel: the source whose output it is; null where it is nothing.
 vtkSMSourceProxy* sourceUnder(vtkSMRenderViewProxy* view, const Pixel& pixel);
 
-/// The places of the surface of this source that are seen at the pixels; none where something else, or nothing, is seen.
-/// All by one selection in the rectangle round the pixels.
+/// The places of the surface of this source that are seen at the pixels; none where something else, or nothing, is
+/// seen. All by one selection in the rectangle round the pixels.
 std::vector<std::optional<Place>> placesUnder(
   vtkSMRenderViewProxy* view, const std::vector<Pixel>& pixels, vtkSMSourceProxy* source);
 

@@ -160,6 +160,8 @@ void pqQuadrilleDrawing::setTool(Tool tool)
   this->Current = tool;
   this->listenTo(pqActiveObjects::instance().activeView());
   qApp->removeEventFilter(this);
+  // Where a computer is slow Qt leaves out places where the mouse has been, and lines would cut corners.
+  QCoreApplication::setAttribute(Qt::AA_CompressHighFrequencyEvents, tool == Tool::None);
   if (tool != Tool::None)
   {
     qApp->installEventFilter(this);

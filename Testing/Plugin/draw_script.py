@@ -52,7 +52,8 @@ def from_polyline(places, line, is_closed=False):
 def line_off(expected, is_closed=False):
     """How far the last constraint is from the places under the mouse, and these from it: the largest distance."""
     points = constraints()[-1][1]
-    return float(max(from_polyline(expected, points, is_closed).max(), from_polyline(points, expected, is_closed).max()))
+    there, back = from_polyline(expected, points, is_closed), from_polyline(points, expected, is_closed)
+    return float(max(there.max(), back.max()))
 
 
 def angle_along(expected):

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The drawing tools in ParaView's real window, under openbox at its defaults, by the mouse at random places.
 
-  test_draw.py XVFB PARAVIEW OPENBOX [--tools NAME...] [--places N] [--surface FILE...] [--seed N]
+  test_draw.py XVFB PARAVIEW PVPYTHON OPENBOX [--tools NAME...] [--places N] [--surface FILE...] [--seed N]
 
 Opens each surface and makes quads by keyboard. With each tool so many random places, or paths, are drawn where the
 surface is clearly seen. Then the constraint, and the quads, are compared with the places under the mouse, which rays
 from the camera tell: half an edge length of the quads is allowed. What the table of constraints says is compared with
-the quads themselves. At last it is tried that Escape leaves the tool, and that one undo takes back one action.
+the quads themselves. Then it is tried that Escape leaves the tool, and that one undo takes back one action. At last a
+session is traced, and the trace run in pvpython: same bytes.
 Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox and xdotool.
 """
 import argparse
@@ -291,16 +292,44 @@ def check_undo(session, chance):
     return bad
 
 
+def check_trace(folder, options, chance):
+    """A session of its own, recorded from File > Open on, makes the same quads in pvpython."""
+    place = folder / "trace"
+    place.mkdir()
+    session = Session(place, options)
+    try:
+        session.start()
+        session.ask("smtrace.start_trace()")
+        session.open()
+        session.find_tools()
+        session.look(270, 20)
+        for name in ("Stroke", "Valence"):
+            session.take(name)
+            ACTIONS[name](session, chance)
+        session.take("Valence")
+        made = *session.value("bytes_of(quads())"), len(session.value("constraints()"))
+        path = place / "trace.py"
+        path.write_text(session.value("smtrace.stop_trace()"), encoding="utf-8")
+        environment = count_actions.environment_of(session)
+    finally:
+        session.close()
+    again = test_places.replay(path, options, environment)
+    print(f"trace: made {made}, replayed {again}", flush=True)
+    if made != again or made[2] != 2:
+        print(path.read_text(encoding="utf-8"))
+        return 1
+    return 0
+
+
 def main():
     parser = argparse.ArgumentParser()
-    for program in ("xvfb", "paraview", "openbox"):
+    for program in ("xvfb", "paraview", "pvpython", "openbox"):
         parser.add_argument(program)
     parser.add_argument("--tools", nargs="*", default=TOOLS)
     parser.add_argument("--places", type=int, default=20)
     parser.add_argument("--seed", type=int, default=35)
     parser.add_argument("--surface", nargs="+", type=pathlib.Path, default=[test_places.SURFACE])
     options = parser.parse_args()
-    options.pvpython = None
     bad = 0
     for surface in options.surface:
         with tempfile.TemporaryDirectory() as folder:
@@ -322,6 +351,8 @@ def main():
             finally:
                 print((folder / "log").read_text(encoding="utf-8"))
                 session.close()
+    with tempfile.TemporaryDirectory() as folder:
+        bad += check_trace(pathlib.Path(folder), options, random.Random(options.seed + 2))
     if bad:
         sys.exit(f"FAILED: {bad} of the checks above")
     print("drawing: fine")
