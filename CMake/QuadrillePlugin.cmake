@@ -15,6 +15,28 @@ foreach(module IN LISTS quadrille_required_modules)
     message(FATAL_ERROR "This ParaView lacks the module ${module}, which the plugin needs.")
   endif()
 endforeach()
+# The drawing tools in the window, with the Qt that ParaView was built with.
+set(QUADRILLE_QT 5)
+if(PARAVIEW_QT_MAJOR_VERSION) # older ones have Qt 5 and do not say so
+  set(QUADRILLE_QT "${PARAVIEW_QT_MAJOR_VERSION}")
+endif()
+set(quadrille_client_default OFF)
+if(PARAVIEW_USE_QT AND TARGET ParaView::pqComponents)
+  find_package(Qt${QUADRILLE_QT} QUIET COMPONENTS Widgets)
+  set(quadrille_client_default "${Qt${QUADRILLE_QT}_FOUND}")
+endif()
+option(QUADRILLE_CLIENT "Build the drawing tools of ParaView's window, with its Qt" ${quadrille_client_default})
+if(QUADRILLE_CLIENT)
+  if(NOT TARGET ParaView::pqComponents)
+    message(FATAL_ERROR "QUADRILLE_CLIENT is ON, but this ParaView has no window; set QUADRILLE_CLIENT to OFF.")
+  endif()
+  find_package(Qt${QUADRILLE_QT} REQUIRED COMPONENTS Widgets)
+  add_subdirectory(Client)
+else()
+  message(STATUS "No drawing tools in ParaView's window: QUADRILLE_CLIENT is OFF; they need Qt ${QUADRILLE_QT} "
+    "(qtbase5-dev or qt6-base-dev)")
+endif()
+
 # The pages behind the question mark in the panel. ParaView's CMake functions compile them with the tools of Qt, and
 # fail without; /usr/bin/xmlpatterns may be a link of qtchooser to nothing, so it is run.
 quadrille_help_tools()

@@ -18,11 +18,11 @@ needed=(
   python3-matplotlib                    # figures of quadrille-evaluate
   xvfb xauth libgl1-mesa-dri            # pictures without a screen
 )
-# Icons of the window, by the Qt that ParaView is built with.
+# Icons of the window, and what the drawing tools in it are built with, by the Qt that ParaView is built with.
 if grep -q '^VERSION_ID="\?12"\?$' /etc/os-release; then
-  needed+=(libqt5svg5)
+  needed+=(libqt5svg5 qtbase5-dev)
 else
-  needed+=(qt6-svg-plugins)
+  needed+=(qt6-svg-plugins qt6-base-dev)
 fi
 # Where a release of Debian lacks one of them, CMake leaves the tests out that need it, and says so.
 for_tests=(

@@ -31,13 +31,16 @@ NEAR = 0.3     # edge lengths between what pixels beside each other see
 class Session(count_actions.Window):
     """ParaView under a window manager, and a pipeline made in it."""
 
+    script = "places_script.py"
+    surface = SURFACE
+
     def __init__(self, folder, programs):
         self.programs = programs
         self.server, display = private_display.start(programs.xvfb, "-screen", "0", "1920x1080x24", "-fbdir",
                                                      str(folder))
         super().__init__(folder, display)
         environment = count_actions.environment_of(self)
-        script = pathlib.Path(__file__).with_name("places_script.py")
+        script = pathlib.Path(__file__).with_name(self.script)
         self.manager = subprocess.Popen([programs.openbox], env=environment, stdout=subprocess.DEVNULL,
                                         stderr=subprocess.DEVNULL)
         with open(folder / "log", "w", encoding="utf-8") as output:
@@ -74,7 +77,7 @@ class Session(count_actions.Window):
     def open(self):
         """File > Open, Apply, Quad Remesh, Apply."""
         self.xdotool("mousemove", *self.middle(), "key", "ctrl+o", "sleep", 2)
-        self.xdotool("type", "--delay", 20, str(SURFACE))
+        self.xdotool("type", "--delay", 20, str(self.surface))
         self.xdotool("sleep", 1, "key", "Return", "sleep", 1)
         self.wait_until("simple.GetActiveSource() is not None")
         self.apply()

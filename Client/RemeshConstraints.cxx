@@ -1,0 +1,379 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RemeshConstraints.h"
+
+#include "pqUndoStack.h"
+#include "vtkAlgorithm.h"
+#include "vtkCleanPolyData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkNew.h"
+#include "vtkPVDataInformation.h"
+#include "vtkPolyData.h"
+#include "vtkSMIntVectorProperty.h"
+#include "vtkSMParaViewPipelineController.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxyIterator.h"
+#include "vtkSMProxySelectionModel.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMTrace.h"
+#include "vtkSmartPointer.h"
+#include "vtkStripper.h"
+#include "vtkTable.h"
+#include "vtkVariant.h"
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <set>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr int kQuads = 0; // outputs of Quad Remesh
+constexpr int kIrregularVertices = 4;
+constexpr int kConstraintTable = 6;
+
+/// Whether what the proxy gives depends on the source.
+bool dependsOn(vtkSMProxy* proxy, vtkSMProxy* source, std::set<vtkSMProxy*>& visited)
+{
+  if (proxy == source || !proxy || !visited.insert(proxy).second)
+  {
+    return proxy != nullptr && proxy == source;
+  }
+  for (unsigned int i = 0; i < proxy->GetNumberOfProducers(); ++i)
+  {
+    auto* producer = vtkSMSourceProxy::SafeDownCast(proxy->GetProducerProxy(i));
+    if (dependsOn(producer, source, visited))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool dependsOn(vtkSMProxy* proxy, vtkSMProxy* source)
+{
+  std::set<vtkSMProxy*> visited;
+  return dependsOn(proxy, source, visited);
+}
+
+bool isConstraint(vtkSMProxy* proxy)
+{
+  const char* type = proxy ? proxy->GetVTKClassName() : nullptr;
+  return type && std::strcmp(type, "vtkQuadConstraintSource") == 0;
+}
+
+/// What an output holds, on the client; null where it was not made.
+vtkSmartPointer<vtkDataObject> fetched(vtkSMSourceProxy* source, int port)
+{
+  const pqScopedUndoExclude noStepOfTheUser;
+  vtkPVDataInformation* there = source->GetDataInformation(static_cast<unsigned int>(port));
+  if (!there || there->IsNull())
+  {
+    return nullptr;
+  }
+  vtkSMSessionProxyManager* manager = source->GetSessionProxyManager();
+  const auto made = [manager](const char* name)
+  {
+    return vtkSmartPointer<vtkSMSourceProxy>::Take(
+      vtkSMSourceProxy::SafeDownCast(manager->NewProxy("filters", name)));
+  };
+  const vtkSmartPointer<vtkSMSourceProxy> gathered = made("ReductionFilter");
+  const vtkSmartPointer<vtkSMSourceProxy> moved = made("ClientServerMoveData");
+  if (!gathered || !moved)
+  {
+    return nullptr;
+  }
+  vtkSMPropertyHelper(gathered, "Input").Set(source, static_cast<unsigned int>(port));
+  if (there->IsCompositeDataSet())
+  {
+    vtkSMPropertyHelper(gathered, "PostGatherHelperName").Set("vtkMultiBlockDataGroupFilter");
+  }
+  else if (there->DataSetTypeIsA("vtkPolyData"))
+  {
+    vtkSMPropertyHelper(gathered, "PostGatherHelperName").Set("vtkAppendPolyData");
+  }
+  else
+  {
+    vtkSMPropertyHelper(gathered, "PassThrough").Set(0); // a table, which the first rank has
+  }
+  gathered->UpdateVTKObjects();
+  gathered->UpdatePipeline();
+  vtkPVDataInformation* whole = gathered->GetDataInformation(0);
+  vtkSMPropertyHelper(moved, "Input").Set(gathered);
+  vtkSMPropertyHelper(moved, "OutputDataType")
+    .Set(whole->IsCompositeDataSet() ? whole->GetCompositeDataSetType() : whole->GetDataSetType());
+  moved->UpdateVTKObjects();
+  moved->UpdatePipeline();
+  auto* algorithm = vtkAlgorithm::SafeDownCast(moved->GetClientSideObject());
+  return algorithm ? algorithm->GetOutputDataObject(0) : nullptr;
+}
+
+template <class Type>
+void forEach(vtkDataObject* data, const std::function<void(Type&)>& visit)
+{
+  if (auto* single = Type::SafeDownCast(data))
+  {
+    visit(*single);
+  }
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    auto iterator = vtk::TakeSmartPointer(blocks->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      forEach<Type>(iterator->GetCurrentDataObject(), visit);
+    }
+  }
+}
+
+/// The lines of a cut put together, those of them that close.
+std::vector<std::vector<Place>> closedCurves(vtkPolyData& cut)
+{
+  vtkNew<vtkCleanPolyData> merged; // pieces of several ranks and blocks
+  merged->SetInputData(&cut);
+  vtkNew<vtkStripper> joined;
+  joined->SetInputConnection(merged->GetOutputPort());
+  joined->JoinContiguousSegmentsOn();
+  joined->SetMaximumLength(std::numeric_limits<int>::max());
+  joined->Update();
+  vtkPolyData* lines = joined->GetOutput();
+  std::vector<std::vector<Place>> curves;
+  for (vtkIdType i = 0; i < lines->GetNumberOfCells(); ++i)
+  {
+    const vtkIdType* ids = nullptr;
+    vtkIdType size = 0;
+    lines->GetCellPoints(i, size, ids);
+    if (size > 3 && ids[0] == ids[size - 1])
+    {
+      curves.emplace_back(static_cast<std::size_t>(size) - 1);
+      for (vtkIdType k = 0; k + 1 < size; ++k)
+      {
+        lines->GetPoint(ids[k], curves.back()[static_cast<std::size_t>(k)].data());
+      }
+    }
+  }
+  return curves;
+}
+
+vtkSMProxySelectionModel* selectionOf(vtkSMSessionProxyManager* manager)
+{
+  return manager->GetSelectionModel("ActiveSources");
+}
+
+} // namespace
+
+bool isQuadRemesh(vtkSMProxy* proxy)
+{
+  const char* name = proxy ? proxy->GetXMLName() : nullptr;
+  return name && std::strcmp(name, "QuadRemesh") == 0;
+}
+
+vtkSMSourceProxy* remeshOf(vtkSMSourceProxy* surface, vtkSMProxy* active)
+{
+  const auto isFor = [surface](vtkSMProxy* proxy)
+  {
+    return isQuadRemesh(proxy) && proxy->GetObjectsCreated() &&
+      (dependsOn(surface, proxy) || dependsOn(proxy, surface));
+  };
+  if (!surface || isFor(active))
+  {
+    return surface ? vtkSMSourceProxy::SafeDownCast(active) : nullptr;
+  }
+  vtkSMProxy* last = nullptr;
+  auto iterator = vtk::TakeSmartPointer(vtkSMProxyIterator::New());
+  iterator->SetSessionProxyManager(surface->GetSessionProxyManager());
+  for (iterator->Begin("sources"); !iterator->IsAtEnd(); iterator->Next())
+  {
+    vtkSMProxy* proxy = iterator->GetProxy();
+    if (isFor(proxy) && (!last || last->GetGlobalID() < proxy->GetGlobalID()))
+    {
+      last = proxy;
+    }
+  }
+  return vtkSMSourceProxy::SafeDownCast(last);
+}
+
+vtkSMSourceProxy* addConstraint(vtkSMSourceProxy* filter, const NewConstraint& constraint)
+{
+  vtkSMSessionProxyManager* manager = filter->GetSessionProxyManager();
+  auto made = vtkSmartPointer<vtkSMSourceProxy>::Take(
+    vtkSMSourceProxy::SafeDownCast(manager->NewProxy("sources", constraint.source.c_str())));
+  if (!made)
+  {
+    return nullptr;
+  }
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->PreInitializeProxy(made);
+  for (const auto& [name, values] : constraint.values)
+  {
+    const auto count = static_cast<unsigned int>(values.size());
+    vtkSMPropertyHelper property(made, name.c_str());
+    if (vtkSMIntVectorProperty::SafeDownCast(made->GetProperty(name.c_str())))
+    {
+      const std::vector<int> numbers(values.begin(), values.end());
+      property.Set(numbers.data(), count);
+      continue;
+    }
+    property.Set(values.data(), count);
+  }
+  controller->PostInitializeProxy(made);
+  const vtkSmartPointer<vtkSMProxy> selected = selectionOf(manager)->GetCurrentProxy();
+  controller->RegisterPipelineProxy(made); // which selects it
+  selectionOf(manager)->SetCurrentProxy(selected, vtkSMProxySelectionModel::CLEAR_AND_SELECT);
+  {
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
+    vtkSMPropertyHelper(filter, "Constraints").Add(made);
+    filter->UpdateVTKObjects();
+  }
+  return made;
+}
+
+vtkSMSourceProxy* lastConstraint(vtkSMSourceProxy* filter)
+{
+  const vtkSMPropertyHelper constraints(filter, "Constraints");
+  vtkSMSourceProxy* last = nullptr;
+  for (unsigned int i = 0; i < constraints.GetNumberOfElements(); ++i)
+  {
+    auto* proxy = vtkSMSourceProxy::SafeDownCast(constraints.GetAsProxy(i));
+    if (isConstraint(proxy) && (!last || last->GetGlobalID() < proxy->GetGlobalID()))
+    {
+      last = proxy;
+    }
+  }
+  return last;
+}
+
+void removeConstraint(vtkSMSourceProxy* filter, vtkSMSourceProxy* constraint)
+{
+  {
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
+    vtkSMPropertyHelper(filter, "Constraints").Remove(constraint);
+    filter->UpdateVTKObjects();
+  }
+  vtkSMProxySelectionModel* selection = selectionOf(filter->GetSessionProxyManager());
+  if (selection->GetCurrentProxy() == constraint)
+  {
+    selection->SetCurrentProxy(filter, vtkSMProxySelectionModel::CLEAR_AND_SELECT);
+  }
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->UnRegisterProxy(constraint);
+}
+
+bool setNumber(vtkSMSourceProxy* constraint, const char* property, int value)
+{
+  if (vtkSMPropertyHelper(constraint, property).GetAsInt() == value)
+  {
+    return false;
+  }
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", constraint);
+  vtkSMPropertyHelper(constraint, property).Set(value);
+  constraint->UpdateVTKObjects();
+  return true;
+}
+
+std::vector<Place> irregularVertices(vtkSMSourceProxy* filter)
+{
+  std::vector<Place> places;
+  forEach<vtkPolyData>(fetched(filter, kIrregularVertices),
+    [&places](vtkPolyData& data)
+    {
+      for (vtkIdType i = 0; i < data.GetNumberOfPoints(); ++i)
+      {
+        places.emplace_back();
+        data.GetPoint(i, places.back().data());
+      }
+    });
+  return places;
+}
+
+std::optional<double> edgeLength(vtkSMSourceProxy* filter)
+{
+  double sum = 0;
+  double count = 0;
+  forEach<vtkPolyData>(fetched(filter, kQuads),
+    [&sum, &count](vtkPolyData& data)
+    {
+      for (vtkIdType i = 0; i < data.GetNumberOfCells(); ++i)
+      {
+        const vtkIdType* corners = nullptr;
+        vtkIdType size = 0;
+        data.GetCellPoints(i, size, corners);
+        for (vtkIdType c = 0; c < size; ++c)
+        {
+          Place from;
+          Place to;
+          data.GetPoint(corners[c], from.data());
+          data.GetPoint(corners[(c + 1) % size], to.data());
+          sum += std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
+          ++count;
+        }
+      }
+    });
+  return count > 0 ? std::optional<double>(sum / count) : std::nullopt;
+}
+
+std::vector<Place> closedCut(vtkSMSourceProxy* source, const Place& origin, const Place& normal)
+{
+  const pqScopedUndoExclude noStepOfTheUser;
+  vtkSMSessionProxyManager* manager = source->GetSessionProxyManager();
+  auto plane = vtkSmartPointer<vtkSMProxy>::Take(manager->NewProxy("implicit_functions", "Plane"));
+  auto cut = vtkSmartPointer<vtkSMSourceProxy>::Take(
+    vtkSMSourceProxy::SafeDownCast(manager->NewProxy("filters", "Cut")));
+  if (!plane || !cut)
+  {
+    return {};
+  }
+  vtkSMPropertyHelper(plane, "Origin").Set(origin.data(), 3);
+  vtkSMPropertyHelper(plane, "Normal").Set(normal.data(), 3);
+  plane->UpdateVTKObjects();
+  vtkSMPropertyHelper(cut, "Input").Set(source);
+  vtkSMPropertyHelper(cut, "CutFunction").Set(plane);
+  vtkSMPropertyHelper(cut, "ContourValues").Set(0, 0.0);
+  cut->UpdateVTKObjects();
+  cut->UpdatePipeline();
+  std::vector<Place> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  forEach<vtkPolyData>(fetched(cut, 0),
+    [&](vtkPolyData& data)
+    {
+      for (std::vector<Place>& curve : closedCurves(data))
+      {
+        for (const Place& place : curve)
+        {
+          const double away =
+            std::hypot(place[0] - origin[0], place[1] - origin[1], place[2] - origin[2]);
+          if (away < least)
+          {
+            least = away;
+            nearest = curve; // the rest of it changes nothing
+          }
+        }
+      }
+    });
+  return nearest;
+}
+
+std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::string& kind)
+{
+  std::optional<ConstraintWord> word;
+  forEach<vtkTable>(fetched(filter, kConstraintTable),
+    [&word, &kind](vtkTable& table)
+    {
+      for (vtkIdType row = 0; row < table.GetNumberOfRows(); ++row)
+      {
+        if (table.GetValueByName(row, "Kind").ToString() == kind)
+        {
+          word = { table.GetValueByName(row, "Met").ToInt() != 0,
+            table.GetValueByName(row, "Reason").ToString() };
+        }
+      }
+    });
+  return word;
+}
+
+} // namespace quadrille

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The constraints of a Quad Remesh, as the drawing tools of the window make, change and remove them.
+#pragma once
+
+#include "DrawnLine.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkSMProxy;
+class vtkSMSourceProxy;
+
+namespace quadrille
+{
+
+bool isQuadRemesh(vtkSMProxy* proxy);
+
+/// The Quad Remesh that what is drawn on a surface is for: the surface is its output or its input, with filters between
+/// or without; of several the active one, else the one made last. Null where there is none.
+vtkSMSourceProxy* remeshOf(vtkSMSourceProxy* surface, vtkSMProxy* active);
+
+struct NewConstraint
+{
+  std::string source; ///< its name in the XML of the server manager, as "QuadStroke"
+  /// Names and values of properties.
+  std::vector<std::pair<std::string, std::vector<double>>> values;
+};
+
+/// A source that is registered, and one of the constraints of the filter. What is selected in the pipeline stays. The
+/// filter is not updated. Null where the server does not know such a source.
+vtkSMSourceProxy* addConstraint(vtkSMSourceProxy* filter, const NewConstraint& constraint);
+
+/// The constraint of the filter that was made last, by these tools or otherwise; null where it has none.
+vtkSMSourceProxy* lastConstraint(vtkSMSourceProxy* filter);
+
+/// Takes a constraint out of the filter and out of the pipeline.
+void removeConstraint(vtkSMSourceProxy* filter, vtkSMSourceProxy* constraint);
+
+/// Sets a number of a constraint, also for the trace; whether it is another one than before.
+bool setNumber(vtkSMSourceProxy* constraint, const char* property, int value);
+
+/// The places of the irregular vertices of the quads that are there.
+std::vector<Place> irregularVertices(vtkSMSourceProxy* filter);
+
+/// Mean edge length of the quads that are there; none where there are no quads.
+std::optional<double> edgeLength(vtkSMSourceProxy* filter);
+
+/// Where a plane through a place cuts what a source gives: the closed curve nearest to that place, without its first
+/// point again at its end. Empty where there is none.
+std::vector<Place> closedCut(vtkSMSourceProxy* source, const Place& origin, const Place& normal);
+
+/// What the filter says of a constraint after it was executed.
+struct ConstraintWord
+{
+  bool isMet = false;
+  std::string reason;
+};
+
+/// The word on the last constraint of a kind (of the column Kind of the Constraint Table); none where it tells of none.
+std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::string& kind);
+
+} // namespace quadrille

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Which surface the user sees at a pixel of a view, and where. All by ParaView's selection of what the card has drawn,
+/// so that it works with a server, and that what is hidden or not pickable is looked through.
+#pragma once
+
+#include "DrawnLine.h"
+
+#include <optional>
+#include <vector>
+
+class vtkSMRenderViewProxy;
+class vtkSMSourceProxy;
+
+namespace quadrille
+{
+
+/// What is drawn at the pixel: the source whose output it is; null where it is nothing.
+vtkSMSourceProxy* sourceUnder(vtkSMRenderViewProxy* view, const Pixel& pixel);
+
+/// The places of the surface of this source that are seen at the pixels; none where something else, or nothing, is
+/// seen. All by one selection in the rectangle round the pixels.
+std::vector<std::optional<Place>> placesUnder(
+  vtkSMRenderViewProxy* view, const std::vector<Pixel>& pixels, vtkSMSourceProxy* source);
+
+/// The direction in which the eye looks through a pixel, of any length.
+Place directionThrough(vtkSMRenderViewProxy* view, const Pixel& pixel);
+
+/// Where a place lies in the view, hidden or not.
+Pixel pixelOf(vtkSMRenderViewProxy* view, const Place& place);
+
+/// Of places of a surface the one that is seen nearest to the pixel, within a reach in pixels: its number. Places that
+/// lie farther than `near` from what is seen at their own pixel are behind it.
+std::optional<std::size_t> nearestSeen(vtkSMRenderViewProxy* view, vtkSMSourceProxy* source,
+  const std::vector<Place>& places, const Pixel& pixel, double reach, double near);
+
+} // namespace quadrille

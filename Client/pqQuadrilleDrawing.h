@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef pqQuadrilleDrawing_h
+#define pqQuadrilleDrawing_h
+
+#include "DrawnLine.h"
+#include "RemeshConstraints.h"
+
+#include "vtkWeakPointer.h"
+
+#include <QObject>
+#include <QPointer>
+#include <QTimer>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+class pqQuadrilleOverlay;
+class pqRenderView;
+class pqView;
+class vtkObject;
+class vtkSMRenderViewProxy;
+class vtkSMSourceProxy;
+
+/**
+ * Draws constraints on the surface that is seen in the active view.
+ *
+ * While a tool is on, the plain left mouse button belongs to it where the mouse is over a surface; elsewhere, and with
+ * all other buttons and with keys held down, the camera is moved as always. What a press, drag and release has drawn
+ * becomes one constraint of the Quad Remesh of that surface, which is executed at once; one undo takes it back.
+ */
+class pqQuadrilleDrawing : public QObject
+{
+  Q_OBJECT
+  typedef QObject Superclass;
+
+public:
+  enum class Tool
+  {
+    None,
+    Stroke,
+    Valence,
+    Move,
+    Connect,
+    Loop,
+    Feature
+  };
+
+  explicit pqQuadrilleDrawing(QObject* parent = nullptr);
+  ~pqQuadrilleDrawing() override;
+
+  Tool tool() const { return this->Current; }
+  int valence() const { return this->Valence; }
+
+public Q_SLOTS:
+  void setTool(Tool tool);
+  /// Of what is clicked next, and of what was clicked last with the tool that is on still; 2 to 8.
+  void setValence(int valence);
+  /// Takes away the constraint that was made last.
+  void removeLast();
+
+Q_SIGNALS:
+  void toolChanged(pqQuadrilleDrawing::Tool tool);
+  void valenceChanged(int valence);
+
+protected:
+  /// Keys, wherever the focus is.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+  Q_DISABLE_COPY(pqQuadrilleDrawing)
+
+  void listenTo(pqView* view);
+  void stopListening();
+
+  // Answers whether the event was for the tool; then nobody else gets it.
+  bool onPress(vtkObject*, unsigned long, void*);
+  bool onMove(vtkObject*, unsigned long, void*);
+  bool onRelease(vtkObject*, unsigned long, void*);
+  bool onWheel(vtkObject*, unsigned long event, void*);
+  bool onEscape();
+
+  void stopDrawing();
+  /// What a drag has drawn becomes a constraint, once the events of the mouse are over.
+  void finish();
+  /// A line along what was drawn; none, with a word to the user, where it cannot be had.
+  std::optional<std::vector<quadrille::Place>> drawnLine(vtkSMSourceProxy* filter, bool isClosed);
+  void finishLine(vtkSMSourceProxy* filter);
+  void finishLoop(vtkSMSourceProxy* filter);
+  void finishValence(vtkSMSourceProxy* filter);
+  void finishMove(vtkSMSourceProxy* filter);
+  void finishConnection(vtkSMSourceProxy* filter);
+  /// The irregular vertex that is seen at the pixel, or none.
+  std::optional<quadrille::Place> ballAt(
+    vtkSMSourceProxy* filter, const quadrille::Pixel& pixel, const char* ifNone);
+  /// Balls can be pressed where they are seen.
+  void showBalls();
+
+  void perform(vtkSMSourceProxy* filter, const quadrille::NewConstraint& constraint);
+  void applyValence();
+  void showQuads(vtkSMSourceProxy* filter);
+  /// Makes the quads anew and says what became of the constraint of this source.
+  void execute(vtkSMSourceProxy* filter, const std::string& source);
+  void offerRemesh();
+
+  quadrille::Pixel mouse() const;
+  double pixelRatio() const;
+  void showPath();
+  void showFirstBall();
+  vtkSMRenderViewProxy* viewProxy() const;
+
+  Tool Current = Tool::None;
+  int Valence = 3;
+  QPointer<pqRenderView> View;
+  QPointer<pqQuadrilleOverlay> Overlay;
+  std::vector<unsigned long> Observers;
+
+  bool IsDrawing = false;                   ///< the button is down
+  bool IsBusy = false;                      ///< what was drawn is being made
+  vtkWeakPointer<vtkSMSourceProxy> Surface; ///< that is drawn on
+  std::vector<quadrille::Pixel> Path;
+
+  std::optional<quadrille::Place> FirstBall; ///< of a connection whose second end is still to come
+
+  /// The valence that was clicked last, which wheel and digits change as long as the mouse stays there.
+  struct Clicked
+  {
+    vtkWeakPointer<vtkSMSourceProxy> Filter;
+    vtkWeakPointer<vtkSMSourceProxy> Constraint;
+    quadrille::Pixel Where;
+  };
+  std::optional<Clicked> Last;
+  QTimer ValenceTimer; ///< a turn of the wheel is several events
+};
+
+#endif

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run by ParaView's window itself, see test_draw.py: answers what was drawn and what the quads have there.
+
+Nothing here is asked of the drawing tools: places under the mouse are rays from the camera's properties, and quads are
+measured by their points.
+"""
+import math
+import random
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import places_script  # whose questions are answered, too
+from places_script import is_clear, output, quads, seen_at, view
+
+
+def quad_arrays():
+    """Points, and the corners of each quad."""
+    data = output(0)
+    points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+    return points, vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 4)
+
+
+def constraints():
+    """(kind of source, its points, valence or None) of each constraint of the filter, in their order."""
+    found = []
+    for source in quads().Constraints:
+        if source is None:
+            continue
+        names = [n for n in ("Points", "Point", "From", "To") if n in source.ListProperties()]
+        values = [v for n in names for v in source.GetPropertyValue(n)]
+        points = [tuple(values[i:i + 3]) for i in range(0, len(values), 3)]
+        valence = source.GetPropertyValue("Valence") if "Valence" in source.ListProperties() else None
+        found.append((source.GetXMLName(), points, valence))
+    return found
+
+
+def from_polyline(places, line, is_closed=False):
+    """The distance of each place from the line."""
+    places, line = numpy.array(places), numpy.array(line)
+    if is_closed:
+        line = numpy.vstack([line, line[:1]])
+    best = numpy.full(len(places), math.inf)
+    for a, b in zip(line[:-1], line[1:]):
+        along = b - a
+        share = numpy.clip((places - a) @ along / max(along @ along, 1e-300), 0, 1)
+        best = numpy.minimum(best, numpy.linalg.norm(places - a - share[:, None] * along, axis=1))
+    return best
+
+
+def line_off(expected, is_closed=False):
+    """How far the last constraint is from the places under the mouse, and these from it: the largest distance."""
+    points = constraints()[-1][1]
+    there, back = from_polyline(expected, points, is_closed), from_polyline(points, expected, is_closed)
+    return float(max(there.max(), back.max()))
+
+
+def angle_along(expected):
+    """Degrees between a line and the nearer family of edges of the quads under it, the mean over its length."""
+    points, corners = quad_arrays()
+    centres = points[corners].mean(axis=1)
+    line = numpy.array(expected)
+    sum_, length = 0, 0
+    for a, b in zip(line[:-1], line[1:]):
+        way = b - a
+        long = numpy.linalg.norm(way)
+        if long == 0:
+            continue
+        quad = points[corners[((centres - (a + b) / 2) ** 2).sum(axis=1).argmin()]]
+        families = (quad[1] - quad[0] + quad[2] - quad[3], quad[3] - quad[0] + quad[2] - quad[1])
+        cosine = max(abs(way @ f) / long / numpy.linalg.norm(f) for f in families)
+        sum_ += long * math.degrees(math.acos(min(1, cosine)))
+        length += long
+    return sum_ / length
+
+
+def valences():
+    """Of each point of the quads how many meet there; 0 on a boundary."""
+    points, corners = quad_arrays()
+    count = numpy.bincount(corners.ravel(), minlength=len(points))
+    edges = numpy.sort(numpy.stack([corners, numpy.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    unique, uses = numpy.unique(edges, axis=0, return_counts=True)
+    count[unique[uses == 1].ravel()] = 0
+    return points, count
+
+
+def nearest_of_valence(place, valence):
+    """The distance from a place to the nearest inner point of the quads with a valence."""
+    points, count = valences()
+    those = points[count == valence]
+    return float(numpy.linalg.norm(those - place, axis=1).min()) if len(those) else math.inf
+
+
+def off_edges(expected):
+    """The largest distance of places from the edges of the quads."""
+    points, corners = quad_arrays()
+    starts, ends = points[corners].reshape(-1, 3), points[numpy.roll(corners, -1, axis=1)].reshape(-1, 3)
+    along = ends - starts
+    worst = 0
+    for place in numpy.array(expected):
+        share = numpy.clip(((place - starts) * along).sum(axis=1) / (along ** 2).sum(axis=1), 0, 1)
+        worst = max(worst, numpy.linalg.norm(starts + share[:, None] * along - place, axis=1).min())
+    return float(worst)
+
+
+def valence_at(place):
+    """Of the point of the quads nearest to a place."""
+    points, count = valences()
+    return int(count[((points - place) ** 2).sum(axis=1).argmin()])
+
+
+def clear_path(start, angle, length, bend, near, step=6):
+    """Pixels along an arc that clearly sees the quads everywhere, with what they see; None where it does not."""
+    x, y = start
+    found = []
+    for k in range(int(length / step) + 1):
+        pixel = round(x), round(y)
+        place = seen_at(pixel)
+        if place is None or not is_clear(pixel, place, near) or \
+                (found and math.dist(found[-1][1], place) > 2 * near):
+            return None
+        found.append((pixel, tuple(place)))
+        x, y = x + step * math.cos(angle), y + step * math.sin(angle)
+        angle += bend * step
+    return found
+
+
+def random_path(seed, shortest, longest, bend, near):
+    """Of random arcs the first one that clearly sees the quads everywhere; None where there is hardly any."""
+    chance = random.Random(seed)
+    width, height = view.ViewSize
+    for _ in range(400):
+        start = chance.uniform(20, width - 20), chance.uniform(20, height - 20)
+        found = clear_path(start, chance.uniform(0, 2 * math.pi), chance.uniform(shortest, longest),
+                           chance.uniform(-bend, bend), near)
+        if found:
+            return found
+    return None
+
+
+def last_row(kind):
+    """Met and Reason of the last row of a kind; None where there is none."""
+    table = output(6)
+    rows = [r for r in range(table.GetNumberOfRows()) if table.GetValueByName(r, "Kind").ToString() == kind]
+    if not rows:
+        return None
+    return table.GetValueByName(rows[-1], "Met").ToInt(), table.GetValueByName(rows[-1], "Reason").ToString()
+
+
+vars(places_script).update({name: thing for name, thing in list(globals().items()) if callable(thing)})

@@ -1,0 +1,362 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The drawing tools in ParaView's real window, under openbox at its defaults, by the mouse at random places.
+
+  test_draw.py XVFB PARAVIEW PVPYTHON OPENBOX [--tools NAME...] [--places N] [--surface FILE...] [--seed N]
+
+Opens each surface and makes quads by keyboard. With each tool so many random places, or paths, are drawn where the
+surface is clearly seen. Then the constraint, and the quads, are compared with the places under the mouse, which rays
+from the camera tell: half an edge length of the quads is allowed. What the table of constraints says is compared with
+the quads themselves. Then it is tried that Escape leaves the tool, and that one undo takes back one action. At last a
+session is traced, and the trace run in pvpython: same bytes.
+Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox and xdotool.
+"""
+import argparse
+import math
+import pathlib
+import random
+import sys
+import tempfile
+import time
+
+import count_actions
+import test_places
+
+ALLOWED = test_places.ALLOWED  # edge lengths
+NEAR = test_places.NEAR
+LINE_NEAR = 0.7   # edge lengths between what pixels beside each other see along a line
+BAR = 0.98       # of the places
+MET_ANGLE = 5    # degrees in the mean, as the Constraint Table has it for strokes
+MET_OFF = 0.3    # edge lengths, as the table has it for feature curves
+DOUBT = 2.5      # degrees in which two ways to measure the mean may differ
+WIDTH = count_actions.WIDTH
+TOOLS = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature")  # in their order
+
+
+class Session(test_places.Session):
+    """ParaView under a window manager, with the tools of its tool bar."""
+
+    script = "draw_script.py"
+
+    def find_tools(self):
+        """The buttons of the tool bar, which has a row of its own above the panels: icons with gaps between them."""
+        rows = self.rows()
+        top, bottom, empty = 152, 174, 3 * (WIDTH - 60)
+        icons, start, last = [], None, 0
+        for x in range(WIDTH // 2):
+            if any(rows[y][3 * x:3 * x + 3] != rows[y][empty:empty + 3] for y in range(top, bottom)):
+                start, last = x if start is None else start, x
+            elif start is not None and x - last > 3:
+                icons.append((start, last))
+                start = None
+        icons = [(a, b) for a, b in icons if b - a >= 10]
+        self.tools = {name: ((a + b) // 2, (top + bottom) // 2) for name, (a, b) in zip(TOOLS, icons)}
+
+    def take(self, name):
+        """Presses the button of a tool; pressed again it leaves it."""
+        self.xdotool("mousemove", *self.tools[name], "sleep", 0.2, "click", 1, "sleep", 0.2)
+        self.ask("pass")
+
+    def drag(self, pixels):
+        """With the left button, through pixels of the view."""
+        words = ["mousemove", *self.screen(pixels[0]), "sleep", 0.1, "mousedown", 1, "sleep", 0.05]
+        for pixel in pixels[1:]:
+            words += ["mousemove", *self.screen(pixel), "sleep", 0.01]
+        self.xdotool(*words, "sleep", 0.05, "mouseup", 1)
+        self.settle()
+
+    def press(self, pixel):
+        """A click."""
+        self.xdotool("mousemove", *self.screen(pixel), "sleep", 0.1, "click", 1)
+        self.settle()
+
+    def settle(self):
+        """What was drawn is made once the events of the mouse are over."""
+        for _ in range(2):
+            self.ask("pass", seconds=180)
+
+    def path(self, chance, shortest=80, longest=240, bend=0.006):
+        """Pixels that clearly see the quads, and what they see, along a random arc."""
+        for _ in range(20):
+            numbers = chance.randrange(10 ** 6), shortest, longest, bend, LINE_NEAR * self.edge
+            found = self.value(f"random_path{numbers!r}")
+            if found:
+                return [tuple(p) for p, _ in found], [tuple(q) for _, q in found]
+            test_places.random_view(self, chance)
+        raise SystemExit("FAILED: hardly any line on the quads is seen")
+
+    def drawn(self):
+        """The constraint that was drawn: kind of source, points, valence; None where nothing was."""
+        found = self.value("constraints()")
+        return found[-1] if found else None
+
+    def word(self, kind):
+        return self.value(f"last_row({kind!r})")
+
+
+class Outcome:
+    """How far a constraint lies from the mouse, and whether what is said of it is true; in edge lengths."""
+
+    def __init__(self, off, met, is_true, text=""):
+        self.off, self.met, self.is_true, self.text = off, met, is_true, text
+
+    def is_good(self):
+        return self.off <= ALLOWED and self.is_true
+
+
+NOTHING = Outcome(math.inf, None, False, "nothing was drawn")
+
+
+def stroke(session, chance):
+    pixels, places = session.path(chance)
+    session.drag(pixels)
+    if not session.drawn():
+        return NOTHING
+    off = session.value(f"line_off({places!r})") / session.edge
+    angle = session.value(f"angle_along({places!r})")
+    met, reason = session.word("guide stroke") or (None, "no row")
+    is_true = met is not None and (angle <= MET_ANGLE + DOUBT if met else angle >= MET_ANGLE - DOUBT)
+    return Outcome(off, met, is_true, f"{angle:.1f} degrees; {reason}")
+
+
+def feature(session, chance):
+    pixels, places = session.path(chance)
+    session.drag(pixels)
+    if not session.drawn():
+        return NOTHING
+    off = session.value(f"line_off({places!r})") / session.edge
+    away = session.value(f"off_edges({places!r})") / session.edge
+    met, reason = session.word("feature curve") or (None, "no row")
+    is_true = met is not None and (away <= MET_OFF + off if met else away > MET_OFF - off)
+    return Outcome(off, met, is_true, f"edges {away:.2f} off; {reason}")
+
+
+def valence(session, chance):
+    pixel, place = session.places(chance, 1)[0]
+    wanted = chance.choice((3, 5))
+    session.ask("pass")
+    session.xdotool("mousemove", *session.screen(pixel), "key", str(wanted))
+    session.press(pixel)
+    drawn = session.drawn()
+    if not drawn:
+        return NOTHING
+    off = math.dist(drawn[1][0], place) / session.edge
+    nearest = session.value(f"nearest_of_valence({tuple(place)!r}, {wanted})") / session.edge
+    met, reason = session.word("valence") or (None, "no row")
+    is_true = drawn[2] == wanted and met is not None and (nearest <= ALLOWED if met else reason != "" or nearest > 0.2)
+    return Outcome(off, met, is_true, f"{wanted} is {nearest:.2f} off; {reason}")
+
+
+def visible_balls(session, chance, least):
+    """In a view that shows so many."""
+    for _ in range(40):
+        balls = session.balls()
+        if len(balls) >= least:
+            return balls
+        test_places.random_view(session, chance)
+    raise SystemExit("FAILED: hardly any irregular vertex is seen")
+
+
+def move(session, chance):
+    ball = chance.choice(visible_balls(session, chance, 1))
+    before = session.value(f"valence_at({tuple(ball[1])!r})")
+    places = [p for p in session.places(chance, 12)
+              if session.edge < math.dist(p[1], ball[1]) < 5 * session.edge] or session.places(chance, 1)
+    pixel, place = chance.choice(places)
+    session.drag([ball[0], tuple((a + b) / 2 for a, b in zip(ball[0], pixel)), pixel])
+    drawn = session.drawn()
+    if not drawn:
+        return NOTHING
+    others = [b for b in session.value("balls_before") if math.dist(b, place) <= ALLOWED * session.edge]
+    goal = min(others, key=lambda b: math.dist(b, place)) if others else place
+    off = max(math.dist(drawn[1][0], ball[1]), math.dist(drawn[1][1], goal)) / session.edge
+    met, reason = session.word("move") or (None, "no row")
+    nearest = session.value(f"nearest_of_valence({tuple(drawn[1][1])!r}, {before})") / session.edge
+    is_true = met is not None and (nearest <= ALLOWED or bool(others) if met else reason != "" or nearest > 0.2)
+    return Outcome(off, met, is_true, f"{before} is {nearest:.2f} off; {reason}")
+
+
+def connect(session, chance):
+    first, second = chance.sample(visible_balls(session, chance, 2), 2)
+    session.press(first[0])
+    session.press(second[0])
+    drawn = session.drawn()
+    if not drawn:
+        return NOTHING
+    off = max(math.dist(drawn[1][0], first[1]), math.dist(drawn[1][-1], second[1])) / session.edge
+    met, reason = session.word("connection") or (None, "no row")
+    return Outcome(off, met, met is not None and (met == 1 or reason != ""), reason)
+
+
+def loop(session, chance):
+    pixels, places = session.path(chance, bend=0)
+    session.drag(pixels)
+    drawn = session.drawn()
+    if not drawn:
+        return NOTHING
+    off = session.value(f"float(from_polyline({places!r}, constraints()[-1][1], True).max())") / session.edge
+    met, reason = session.word("cycle") or (None, "no row")
+    return Outcome(off, met, met is not None and (met == 1 or reason != ""), reason)
+
+
+ACTIONS = {"Stroke": stroke, "Valence": valence, "Move": move, "Connect": connect, "Loop": loop, "Feature": feature}
+
+
+def try_tool(session, name, chance, count):
+    """Draws so many times with a tool; how many of them are bad."""
+    session.ask("clear()")
+    session.take(name)
+    outcomes = []
+    for number in range(count):
+        session.ask("clear()")
+        test_places.random_view(session, chance)
+        session.ask("global balls_before; balls_before = [output(4).GetPoint(i) for i in "
+                    "range(output(4).GetNumberOfPoints())]")
+        outcome = ACTIONS[name](session, chance)
+        outcomes.append(outcome)
+        print(f"{name} {number + 1}: {outcome.off:.3f} edge lengths off, met {outcome.met}; {outcome.text}"
+              f"{'' if outcome.is_good() else '  BAD'}", flush=True)
+        if number < 2 or not outcome.is_good():
+            session.shot(f"draw-{session.surface.stem}-{name.lower()}-{number + 1}")
+    session.xdotool("key", "Escape")
+    session.ask("pass")
+    good = sum(o.is_good() for o in outcomes)
+    met = sum(o.met == 1 for o in outcomes)
+    offs = sorted(o.off for o in outcomes)
+    print(f"{session.surface.name}, {name}: {good} of {count} where the mouse was and told truly, {met} met; "
+          f"median {offs[len(offs) // 2]:.3f} edge lengths off, largest {offs[-1]:.3f}", flush=True)
+    return count - good
+
+
+def check_escape(session, chance):
+    """After Escape, and after a second press of the button, the left button moves the camera and draws nothing."""
+    bad = 0
+    for name, way in [(name, "Escape") for name in TOOLS] + [("Stroke", "button")]:
+        session.ask("clear()")
+        session.look(270, 20)
+        session.take(name)
+        if way == "Escape":
+            session.xdotool("mousemove", *session.screen(session.places(chance, 1)[0][0]), "key", "Escape")
+        else:
+            session.take(name)
+        pixels, _ = session.path(chance)
+        camera = session.value("list(view.CameraPosition)")
+        session.drag(pixels)
+        left = session.drawn() is None and session.value("list(view.CameraPosition)") != camera
+        print(f"{name} left by {way}: {'fine' if left else 'BAD'}", flush=True)
+        bad += not left
+    return bad
+
+
+def check_camera(session, chance):
+    """With a tool on, the left button beside the surface moves the camera, and so does the right one on it."""
+    session.ask("clear()")
+    session.look(270, 20)
+    session.take("Stroke")
+    width, height = session.value("view.ViewSize")
+    moved = []
+    for button, start in ((1, (width - 30, height - 30)), (3, session.places(chance, 1)[0][0])):
+        before = session.value("list(view.CameraPosition)")
+        x, y = session.screen(start)
+        session.xdotool("mousemove", x, y, "sleep", 0.1, "mousedown", button, "mousemove", x - 20, y + 20, "sleep", 0.1,
+                        "mousemove", x - 40, y + 60, "sleep", 0.1, "mouseup", button)
+        session.settle()
+        moved.append(session.value("list(view.CameraPosition)") != before)
+        session.look(270, 20)
+    nothing = session.drawn() is None
+    session.xdotool("key", "Escape")
+    print(f"camera beside the surface {moved[0]}, with the right button {moved[1]}, nothing drawn {nothing}")
+    return not (all(moved) and nothing)
+
+
+def check_undo(session, chance):
+    """One undo takes one action back, with the quads of before; redo brings it again."""
+    bad = 0
+    for name in ("Stroke", "Valence"):
+        session.ask("clear()")
+        session.look(270, 20)
+        before = session.value("bytes_of(quads())")
+        session.take(name)
+        ACTIONS[name](session, chance)
+        made, count = session.value("bytes_of(quads())"), len(session.value("constraints()"))
+        states = []
+        for key in ("ctrl+z", "ctrl+y"):
+            session.xdotool("key", key)
+            time.sleep(1)
+            session.settle()
+            states.append((session.value("bytes_of(quads())"), len(session.value("constraints()"))))
+        fine = count == 1 and made != before and states == [(before, 0), (made, 1)]
+        session.xdotool("key", "Escape")
+        print(f"undo and redo of {name}: {'fine' if fine else f'BAD: {count} constraints, {states}'}", flush=True)
+        bad += not fine
+    return bad
+
+
+def check_trace(folder, options, chance):
+    """A session of its own, recorded from File > Open on, makes the same quads in pvpython."""
+    place = folder / "trace"
+    place.mkdir()
+    session = Session(place, options)
+    try:
+        session.start()
+        session.ask("smtrace.start_trace()")
+        session.open()
+        session.find_tools()
+        session.look(270, 20)
+        for name in ("Stroke", "Valence"):
+            session.take(name)
+            ACTIONS[name](session, chance)
+        session.take("Valence")
+        made = *session.value("bytes_of(quads())"), len(session.value("constraints()"))
+        path = place / "trace.py"
+        path.write_text(session.value("smtrace.stop_trace()"), encoding="utf-8")
+        environment = count_actions.environment_of(session)
+    finally:
+        session.close()
+    again = test_places.replay(path, options, environment)
+    print(f"trace: made {made}, replayed {again}", flush=True)
+    if made != again or made[2] != 2:
+        print(path.read_text(encoding="utf-8"))
+        return 1
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    for program in ("xvfb", "paraview", "pvpython", "openbox"):
+        parser.add_argument(program)
+    parser.add_argument("--tools", nargs="*", default=TOOLS)
+    parser.add_argument("--places", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=35)
+    parser.add_argument("--surface", nargs="+", type=pathlib.Path, default=[test_places.SURFACE])
+    options = parser.parse_args()
+    bad = 0
+    for surface in options.surface:
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            session = Session(folder, options)
+            session.surface = surface
+            try:
+                session.start()
+                session.open()
+                session.find_tools()
+                for name in options.tools:
+                    wrong = try_tool(session, name, random.Random(options.seed), options.places)
+                    bad += wrong if wrong > (1 - BAR) * options.places else 0
+                for check in (check_escape, check_camera, check_undo):
+                    bad += check(session, random.Random(options.seed + 1))
+            except BaseException:
+                session.shot("draw-failure")
+                raise
+            finally:
+                print((folder / "log").read_text(encoding="utf-8"))
+                session.close()
+    with tempfile.TemporaryDirectory() as folder:
+        bad += check_trace(pathlib.Path(folder), options, random.Random(options.seed + 2))
+    if bad:
+        sys.exit(f"FAILED: {bad} of the checks above")
+    print("drawing: fine")
+
+
+if __name__ == "__main__":
+    main()
