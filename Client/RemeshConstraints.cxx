@@ -23,6 +23,7 @@
 #include "vtkTable.h"
 #include "vtkVariant.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -131,8 +132,14 @@ void forEach(vtkDataObject* data, const std::function<void(Type&)>& visit)
   }
 }
 
-/// The lines of a cut put together, those of them that close.
-std::vector<std::vector<Place>> closedCurves(vtkPolyData& cut)
+struct Curve
+{
+  std::vector<Place> places; ///< of a closed one without the first again at its end
+  bool isClosed = false;
+};
+
+/// The lines of a cut put together.
+std::vector<Curve> curvesOf(vtkPolyData& cut)
 {
   vtkNew<vtkCleanPolyData> merged; // pieces of several ranks and blocks
   merged->SetInputData(&cut);
@@ -142,20 +149,20 @@ std::vector<std::vector<Place>> closedCurves(vtkPolyData& cut)
   joined->SetMaximumLength(std::numeric_limits<int>::max());
   joined->Update();
   vtkPolyData* lines = joined->GetOutput();
-  std::vector<std::vector<Place>> curves;
+  std::vector<Curve> curves;
   for (vtkIdType i = 0; i < lines->GetNumberOfCells(); ++i)
   {
     const vtkIdType* ids = nullptr;
     vtkIdType size = 0;
     lines->GetCellPoints(i, size, ids);
-    if (size > 3 && ids[0] == ids[size - 1])
+    Curve curve;
+    curve.isClosed = size > 3 && ids[0] == ids[size - 1];
+    for (vtkIdType k = 0; k < (curve.isClosed ? size - 1 : size); ++k)
     {
-      curves.emplace_back(static_cast<std::size_t>(size) - 1);
-      for (vtkIdType k = 0; k + 1 < size; ++k)
-      {
-        lines->GetPoint(ids[k], curves.back()[static_cast<std::size_t>(k)].data());
-      }
+      curve.places.emplace_back();
+      lines->GetPoint(ids[k], curve.places.back().data());
     }
+    curves.push_back(std::move(curve));
   }
   return curves;
 }
@@ -336,26 +343,27 @@ std::vector<Place> closedCut(vtkSMSourceProxy* source, const Place& origin, cons
   vtkSMPropertyHelper(cut, "ContourValues").Set(0, 0.0);
   cut->UpdateVTKObjects();
   cut->UpdatePipeline();
-  std::vector<Place> nearest;
+  Curve nearest;
   double least = std::numeric_limits<double>::infinity();
   forEach<vtkPolyData>(fetched(cut, 0),
     [&](vtkPolyData& data)
     {
-      for (std::vector<Place>& curve : closedCurves(data))
+      for (const Curve& curve : curvesOf(data))
       {
-        for (const Place& place : curve)
+        double away = std::numeric_limits<double>::infinity();
+        for (const Place& place : curve.places)
         {
-          const double away =
-            std::hypot(place[0] - origin[0], place[1] - origin[1], place[2] - origin[2]);
-          if (away < least)
-          {
-            least = away;
-            nearest = curve; // the rest of it changes nothing
-          }
+          away = std::min(
+            away, std::hypot(place[0] - origin[0], place[1] - origin[1], place[2] - origin[2]));
+        }
+        if (away < least)
+        {
+          least = away;
+          nearest = curve;
         }
       }
     });
-  return nearest;
+  return nearest.isClosed ? nearest.places : std::vector<Place>{};
 }
 
 std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::string& kind)

@@ -48,8 +48,8 @@ std::vector<Place> irregularVertices(vtkSMSourceProxy* filter);
 /// Mean edge length of the quads that are there; none where there are no quads.
 std::optional<double> edgeLength(vtkSMSourceProxy* filter);
 
-/// Where a plane through a place cuts what a source gives: the closed curve nearest to that place, without its first
-/// point again at its end. Empty where there is none.
+/// Where a plane through a place cuts what a source gives: the curve nearest to that place, without its first point
+/// again at its end. Empty where that one does not close.
 std::vector<Place> closedCut(vtkSMSourceProxy* source, const Place& origin, const Place& normal);
 
 /// What the filter says of a constraint after it was executed.

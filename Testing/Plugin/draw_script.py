@@ -10,9 +10,14 @@ import random
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPlane
+from vtkmodules.vtkFiltersCore import vtkCutter, vtkStripper
 
 import places_script  # whose questions are answered, too
 from places_script import is_clear, output, quads, seen_at, view
+
+
+COVERED = 280  # pixels at the lower end of the view, where the window Output Messages may lie
 
 
 def quad_arrays():
@@ -117,7 +122,7 @@ def clear_path(start, angle, length, bend, near, step=6):
     for k in range(int(length / step) + 1):
         pixel = round(x), round(y)
         place = seen_at(pixel)
-        if place is None or not is_clear(pixel, place, near) or \
+        if place is None or pixel[1] < COVERED or not is_clear(pixel, place, near) or \
                 (found and math.dist(found[-1][1], place) > 2 * near):
             return None
         found.append((pixel, tuple(place)))
@@ -137,6 +142,28 @@ def random_path(seed, shortest, longest, bend, near):
         if found:
             return found
     return None
+
+
+def cut_closes(path):
+    """Whether the plane through a drag and the eye cuts the quads there in a closed curve."""
+    path = numpy.array(path)
+    middle = path[len(path) // 2]
+    normal = numpy.cross(path[-1] - path[0], middle - numpy.array(view.GetActiveCamera().GetPosition()))
+    plane = vtkPlane()
+    plane.SetOrigin(*middle)
+    plane.SetNormal(*normal)
+    cutter, joined = vtkCutter(), vtkStripper()
+    cutter.SetInputData(output(0))
+    cutter.SetCutFunction(plane)
+    joined.SetInputConnection(cutter.GetOutputPort())
+    joined.JoinContiguousSegmentsOn()
+    joined.SetMaximumLength(10 ** 6)
+    joined.Update()
+    lines = joined.GetOutput()
+    nearest = lines.GetCell(int(numpy.argmin([
+        min(math.dist(lines.GetPoint(lines.GetCell(i).GetPointId(k)), middle)
+            for k in range(lines.GetCell(i).GetNumberOfPoints())) for i in range(lines.GetNumberOfCells())])))
+    return nearest.GetPointId(0) == nearest.GetPointId(nearest.GetNumberOfPoints() - 1)
 
 
 def last_row(kind):

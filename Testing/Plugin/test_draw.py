@@ -30,6 +30,7 @@ MET_ANGLE = 5    # degrees in the mean, as the Constraint Table has it for strok
 MET_OFF = 0.3    # edge lengths, as the table has it for feature curves
 DOUBT = 2.5      # degrees in which two ways to measure the mean may differ
 WIDTH = count_actions.WIDTH
+COVERED = 280  # pixels at the lower end of the view, where the window Output Messages may lie
 TOOLS = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature")  # in their order
 
 
@@ -74,6 +75,15 @@ class Session(test_places.Session):
         """What was drawn is made once the events of the mouse are over."""
         for _ in range(2):
             self.ask("pass", seconds=180)
+
+    def places(self, chance, count):
+        found = []
+        while len(found) < count:
+            found += [p for p in super().places(chance, count) if p[0][1] > COVERED]
+        return found[:count]
+
+    def balls(self):
+        return [b for b in super().balls() if b[0][1] > COVERED]
 
     def path(self, chance, shortest=80, longest=240, bend=0.006):
         """Pixels that clearly see the quads, and what they see, along a random arc."""
@@ -182,6 +192,8 @@ def connect(session, chance):
     session.press(second[0])
     drawn = session.drawn()
     if not drawn:
+        session.xdotool("key", "Escape")  # the one end is not taken for the next pair
+        session.take("Connect")
         return NOTHING
     off = max(math.dist(drawn[1][0], first[1]), math.dist(drawn[1][-1], second[1])) / session.edge
     met, reason = session.word("connection") or (None, "no row")
@@ -190,10 +202,11 @@ def connect(session, chance):
 
 def loop(session, chance):
     pixels, places = session.path(chance, bend=0)
+    closes = session.value(f"cut_closes({places!r})")
     session.drag(pixels)
     drawn = session.drawn()
-    if not drawn:
-        return NOTHING
+    if not drawn or not closes:
+        return NOTHING if bool(drawn) != closes else Outcome(0, None, True, "no loop closes there, and none was drawn")
     off = session.value(f"float(from_polyline({places!r}, constraints()[-1][1], True).max())") / session.edge
     met, reason = session.word("cycle") or (None, "no row")
     return Outcome(off, met, met is not None and (met == 1 or reason != ""), reason)
