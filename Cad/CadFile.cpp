@@ -361,8 +361,8 @@ std::string lower(std::string text)
   return text;
 }
 
-/// Open CASCADE reads in millimetres. Its tolerances are lengths without a unit, so that in metres it joins vertices and
-/// loses edges that are a hundredth of a millimetre long.
+/// Open CASCADE reads in millimetres. Its tolerances are lengths without a unit, so that in metres it joins vertices
+/// and loses edges that are a hundredth of a millimetre long.
 void tellUnit(const std::string& unit, CadFile& file)
 {
   file.unit = unit;

@@ -20,8 +20,8 @@ struct HealedShape
   std::vector<std::string> repairs; ///< "3 faces with self-intersecting wires were repaired"
 };
 
-/// The free edges of faces of no solid are sewn where they meet, and what BRepCheck finds invalid goes through ShapeFix_Shape. A shape
-/// that is valid stays as it is. What is invalid after that is told, too.
+/// The free edges of faces of no solid are sewn where they meet, and what BRepCheck finds invalid goes through
+/// ShapeFix_Shape. A shape that is valid stays as it is. What is invalid after that is told, too.
 HealedShape healShape(const TopoDS_Shape& shape);
 
 } // namespace quadrille

@@ -34,6 +34,8 @@ namespace arrays
 {
 constexpr const char* kFeatureEdges = "FeatureEdges";
 /// Of joined pieces (unsigned char a cell): as FeatureEdges, of what was found on the pieces themselves.
+constexpr const char* kCadShape =
+  "CadShape"; ///< field data; the features of such a surface are known
 constexpr const char* kDetectedFeatures = "QuadrilleDetectedFeatures";
 constexpr const char* kPatchId = "PatchId";
 constexpr const char* kGuidingDirection = "GuidingDirection";
