@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Cad/Placement.h"
 #include "Cad/ShapeData.h"
+#include "Cad/VertexNodes.h"
 #include "Shapes.h"
 
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <gtest/gtest.h>
@@ -137,6 +140,47 @@ TEST(Placement, NormalsAndCurvaturesAreThoseOfTheShape)
     EXPECT_NEAR(place.curvatures[0], -0.5, 1e-5);
     EXPECT_NEAR(place.curvatures[1], -0.5, 1e-5);
   }
+}
+
+/// Two boxes side by side have edges that are divided where nothing bends.
+TEST(Placement, VerticesWithinStraightLinesGetNodes)
+{
+  const TopoDS_Shape both = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(1, 1, 1).Shape(),
+    BRepPrimAPI_MakeBox(gp_Pnt(1, 0, 0), gp_Pnt(2, 1, 1)).Shape())
+                              .Shape();
+  const CadShape shape = shapeOf(both);
+  const CadSurface surface = tessellate(shape);
+  const std::vector<Vector3> points{ { 0, 0, 0 }, { 0.8, 0, 0 }, { 1.5, 0, 0 }, { 2, 0, 0 },
+    { 0, 0, 0.5 }, { 0.8, 0, 0.5 }, { 1.5, 0, 0.5 }, { 2, 0, 0.5 } };
+  const std::vector<std::array<Index, 4>> quads{ { 0, 1, 5, 4 }, { 1, 2, 6, 5 }, { 2, 3, 7, 6 } };
+  std::vector<CadPlace> places = placeOnShape(shape, surface, points);
+  EXPECT_EQ(places[1].kind, CadPlaceKind::Edge);
+  // Nodes 4 and 7, on upright edges, go to the upper ends of these, for which this strip has no others.
+  EXPECT_EQ(takeVertices(shape, surface, quads, places), 3U);
+  EXPECT_EQ(places[1].kind, CadPlaceKind::Vertex);
+  EXPECT_EQ(places[1].point, Vector3(1, 0, 0));
+  EXPECT_EQ(places[2].point, points[2]);
+  EXPECT_EQ(takeVertices(shape, surface, quads, places), 0U);
+}
+
+TEST(Placement, QuadsThatWouldBeTurnedOverStay)
+{
+  const std::vector<Vector3> before{ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
+  std::vector<CadPlace> places(4);
+  for (Index i = 0; i < 4; ++i)
+  {
+    places[i].kind = CadPlaceKind::Face;
+    places[i].id = 0;
+    places[i].point = before[i];
+  }
+  std::vector<CadPlace> good = places;
+  good[0].point = { 0.1, 0.1, 0 };
+  keepQuads({ { 0, 1, 2, 3 } }, before, good);
+  EXPECT_EQ(good[0].kind, CadPlaceKind::Face);
+  places[0].point = { 0.8, 0.9, 0 };
+  keepQuads({ { 0, 1, 2, 3 } }, before, places);
+  EXPECT_EQ(places[0].kind, CadPlaceKind::None);
+  EXPECT_EQ(places[0].point, before[0]);
 }
 
 TEST(Placement, WhatIsFarStaysAndIsMarked)

@@ -29,7 +29,7 @@ def places(proxy):
 part = simple.OpenDataFile(named)
 check(part.SMProxy.GetXMLName() == "QuadrilleCADReader", "STEP files are opened by another reader")
 quads = QuadRemesh(Input=part, NumberOfQuads=600)
-exact = QuadCADProjection(Input=quads)
+exact = QuadNodesOnCADGeometry(Input=quads)
 exact.UpdatePipeline()
 check(size_of(exact) == size_of(quads) > 0, "the filter changes the quads")
 check(places(exact)[0] == 0, "nodes stay on the triangles")
@@ -40,7 +40,7 @@ text = open(deck).read()
 check("ELSET=SUPPORT" in text.upper() and "ELSET=BORE" in text.upper(), "faces with names are no sets of the deck")
 
 elements = QuadElements(Input=quads, Surface=part, Order="Second")
-second = QuadCADProjection(Input=elements)
+second = QuadNodesOnCADGeometry(Input=elements)
 second.UpdatePipeline()
 check(places(second)[0] == 0 and places(second)[1] > places(exact)[1], "nodes of second order stay")
 
@@ -51,7 +51,7 @@ check(part.GetDataInformation(1).GetNumberOfCells() == 15, "the edges are not th
 both = QuadrilleCADReader(FileName=assembly)
 both.UpdatePipeline()
 check(both.GetDataInformation().GetCompositeDataClassName() == "vtkMultiBlockDataSet", "instances are no blocks")
-blocks = QuadCADProjection(Input=QuadRemesh(Input=both, NumberOfQuads=800))
+blocks = QuadNodesOnCADGeometry(Input=QuadRemesh(Input=both, NumberOfQuads=800))
 blocks.UpdatePipeline()
 check(size_of(blocks) > 500, "no quads on the blocks")
 both.JoinParts = 1
