@@ -14,6 +14,7 @@
 #include "Runs/InPieces.h"
 
 #include "vtkCellData.h"
+#include "vtkFieldData.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -260,7 +261,9 @@ quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(
   }
   options.relativeEdgeLength = this->RelativeEdgeLength;
   options.featureAngle.reset();
-  if (this->DetectFeatures)
+  vtkPolyData* surface = block.input(0);
+  const bool isKnown = surface && surface->GetFieldData()->HasArray(quadrille::arrays::kCadShape);
+  if (this->DetectFeatures && !isKnown) // of CAD files the reader has marked them
   {
     options.featureAngle = vtkMath::RadiansFromDegrees(this->FeatureAngle);
   }

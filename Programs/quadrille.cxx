@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The command for people without ParaView's window: a mesh file in, a quad mesh out.
 #include "Base/Memory.h"
+#include "CadRun.h"
 #include "ElementRun.h"
 #include "MeshFiles.h"
 #include "Options.h"
@@ -38,9 +39,10 @@ using namespace quadrille;
 
 constexpr const char* kIntroduction =
   R"(usage: quadrille IN.{ply,obj,stl,off,vtp,vtk} OUT.{vtp,vtu,ex2,e,inp,msh,mesh,obj,ply,stl} [options]
+       quadrille IN.{step,stp,iges,igs,brep} OUT.{vtp,vtu,ex2,e,inp,msh,mesh,obj,ply,stl} [options]
        quadrille IN.{ply,obj,stl,off,vtp,vtk} --method seamless --map MAP.vtp [options]
 
-Remeshes a triangle surface with quads only.
+Remeshes a triangle surface, or the faces of a CAD file, with quads only.
 
 )";
 
@@ -94,6 +96,7 @@ struct Request
   RunFiles files;
   vtkNew<vtkQuadMeshWriter> writer;
   WrapRequest wrap;
+  CadRun cad;
   ElementRun elements;
   bool quiet = false;
 };
@@ -617,8 +620,10 @@ ExitCode execute(RemeshRun& run, Request& request)
 {
   const Clock::time_point start = Clock::now();
   const RunFiles& files = request.files;
-  const vtkSmartPointer<vtkPolyData> input =
-    readGuarded(files.input, run.filter()->GetNumberOfThreads());
+  const bool isCad = CadRun::isCad(files.input);
+  const vtkSmartPointer<vtkPolyData> input = isCad
+    ? request.cad.read(run, files.input)
+    : readGuarded(files.input, run.filter()->GetNumberOfThreads());
   RunTimes times;
   times.read = secondsSince(start);
 
@@ -635,6 +640,11 @@ ExitCode execute(RemeshRun& run, Request& request)
   if (hasQuads(code) && request.elements.isAsked())
   {
     result = request.elements.execute(run, input);
+    code = result ? code : kNoValidResult;
+  }
+  if (isCad && hasQuads(code))
+  {
+    result = request.cad.project(run, result);
     code = result ? code : kNoValidResult;
   }
   progress.finish();
@@ -708,6 +718,7 @@ ExitCode runCommand(int argc, char* argv[])
   addSizes(options, run.filter());
   addShape(options, run.filter());
   addFinish(options, run.filter());
+  request.cad.addOptions(options);
   addFormats(options, request.writer);
   request.elements.addOptions(options);
   addRun(options, run.filter(), request);
@@ -722,6 +733,7 @@ ExitCode runCommand(int argc, char* argv[])
     return kBadInput;
   }
   checkTogether(options, run.filter(), request.files);
+  request.cad.check(options, request.files.input);
   request.elements.check(options, request.files.output);
   request.wrap.detectsFeatures = options.given("feature-angle");
   run.filter()->SetComputeMappedSurface(options.given("map"));

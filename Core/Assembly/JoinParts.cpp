@@ -409,6 +409,8 @@ JoinedParts joinParts(std::vector<SurfaceInput> parts, const PartContacts& conta
   JoinedParts joined;
   SurfaceInput& all = joined.input;
   all.patchesYield = true;
+  all.featuresYield = std::all_of(
+    parts.begin(), parts.end(), [](const SurfaceInput& part) { return part.featuresYield; });
   const bool features = anyHas(parts, &SurfaceInput::featureEdges);
   const bool guides = anyHas(parts, &SurfaceInput::guideDirections);
   const bool weights = anyHas(parts, &SurfaceInput::guideWeights);

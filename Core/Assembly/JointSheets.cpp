@@ -315,6 +315,7 @@ private:
       copy(joint_.guideOrders, input.guideOrders);
     }
     input.patchesYield = joint_.patchesYield;
+    input.featuresYield = joint_.featuresYield;
     input.curves = joint_.curves;
   }
 

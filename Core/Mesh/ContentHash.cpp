@@ -88,8 +88,8 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
 {
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, patchesYield,
-    detectedFeatures, guideDirections, guideWeights, guideOrders, targetValences, sizing,
-    sizingOrders, drawn, curves, regularElsewhere, held, regularOnFeatures, seams, straight,
+    featuresYield, detectedFeatures, guideDirections, guideWeights, guideOrders, targetValences,
+    sizing, sizingOrders, drawn, curves, regularElsewhere, held, regularOnFeatures, seams, straight,
     faceOrder, precision] = input;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
@@ -113,6 +113,7 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
   hash = mix(hash, hashVector(featureEdges, threads));
   hash = mix(hash, hashVector(patchIds, threads));
   hash = patchesYield ? mix(hash, 1) : hash;
+  hash = featuresYield ? mix(hash, 2) : hash;
   hash = mix(hash, hashVector(detectedFeatures, threads));
   hash = mix(hash, hashVector(sizing, threads));
   return mix(mix(hash, geometry.faceOrder), geometry.precision);

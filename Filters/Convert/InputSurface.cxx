@@ -15,6 +15,7 @@
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -322,6 +323,7 @@ ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray
   readPolygons(data, surface, threads);
   readStrips(data, surface);
   readFeatureEdges(data, surface, threads);
+  surface.input.featuresYield = data->GetFieldData()->HasArray(arrays::kCadShape);
   readDetectedFeatures(data, surface);
   readPatchIds(data, patchArray, surface, threads);
   readGuides(data, surface);

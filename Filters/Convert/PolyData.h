@@ -33,6 +33,8 @@ namespace quadrille
 namespace arrays
 {
 constexpr const char* kFeatureEdges = "FeatureEdges";
+/// Field data; the features of such a surface are known.
+constexpr const char* kCadShape = "CadShape";
 /// Of joined pieces (unsigned char a cell): as FeatureEdges, of what was found on the pieces themselves.
 constexpr const char* kDetectedFeatures = "QuadrilleDetectedFeatures";
 constexpr const char* kPatchId = "PatchId";

@@ -11,6 +11,9 @@
     surface, findings = quadrille.repair(mesh)                  # damaged surfaces; both need a build with CGAL
     surface = quadrille.wrap(mesh, alpha=0.1)
 
+    part = quadrille.read_cad("part.step")                      # where the build has Open CASCADE
+    quads = quadrille.on_cad_geometry(quadrille.remesh(part))   # nodes on the exact surfaces, curves and vertices
+
     elements = quadrille.elements(quads, surface, order=2)      # vtkUnstructuredGrid of second order, for simulation
 
     session = quadrille.Session(mesh, quads=5000)               # change one thing, and see what it does
@@ -21,13 +24,13 @@
 
 Where this package was built for a VTK, meshes are data of VTK. The wheel quadrille-mesh needs NumPy alone: there a
 mesh is a Mesh of arrays, which is the pair (points, faces) as well; data of VTK that go in come out as such.
-repair(), wrap(), elements(), check(), spread=True and what follows are not in the wheel.
+read_cad(), on_cad_geometry(), repair(), wrap(), elements(), check(), spread=True and what follows are not in the wheel.
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
 vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadElements, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison,
 vtkQuadrilleSession, the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader, vtkQuadrillePLYReader and
 vtkQuadrilleSTLReader, the writer vtkQuadMeshWriter, and in QuadrilleFilters, where there is CGAL, vtkSurfaceRepair,
-vtkSurfaceWrap and vtkQuadProjection.
+vtkSurfaceWrap and vtkQuadProjection, and where there is Open CASCADE vtkQuadrilleCADReader and vtkQuadCADProjection.
 """
 import collections
 from importlib.util import find_spec
@@ -40,7 +43,7 @@ if find_spec(__name__ + "._vtk"):
 from ._backend import backend
 from ._elements import FailedElements, elements
 from ._errors import InvalidInput, RemeshError
-from ._files import read, write
+from ._files import on_cad_geometry, read, read_cad, write
 from ._inputs import as_curves, as_surface, to_polydata, with_requests
 from ._mesh import Mesh
 from ._options import (
@@ -52,9 +55,13 @@ from ._version import __version__
 
 __all__ = [
     "FailedElements", "InvalidInput", "Irregular", "Mesh", "RemeshError", "Remeshed", "Session", "check", "elements",
-    "has_cgal", "info", "read", "remesh", "repair", "to_arrays", "to_polydata", "wrap", "write", "__version__",
+    "has_cad", "has_cgal", "info", "on_cad_geometry", "read", "read_cad", "remesh", "repair", "to_arrays",
+    "to_polydata", "wrap", "write", "__version__",
     *backend.CLASSES,
 ]
+
+
+has_cad = backend.has_cad
 
 
 def __getattr__(name):

@@ -324,7 +324,21 @@ def _triangles_of_strips(offsets, ids):
     return numpy.array(triangles, numpy.int64).reshape(-1, 3)
 
 
+def has_cad():
+    return False
+
+
+def read_cad(path, **_):
+    raise InvalidInput(f"{path}: CAD files are not read here: {_ELSEWHERE}. Or have your CAD program write STL or PLY")
+
+
+def on_cad_geometry(_):
+    raise InvalidInput(f"there is no exact geometry here: {_ELSEWHERE}")
+
+
 def read(path):
+    if os.path.splitext(path)[1].lower() in (".step", ".stp", ".iges", ".igs", ".brep", ".brp"):
+        read_cad(path)
     extension = os.path.splitext(path)[1].lower()
     if extension not in _READ:
         raise InvalidInput(f"files of the kind {extension or 'without extension'} are not read here; known are "

@@ -349,7 +349,49 @@ class _Silence:
         return lines[-1].split("): ", 1)[-1] if lines else ""
 
 
+_CAD = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
+
+
+def has_cad():
+    return hasattr(filters, "vtkQuadrilleCADReader")
+
+
+def _missing_cad():
+    return ("this build of Quadrille reads no CAD files: build it with Open CASCADE (package "
+            "libocct-data-exchange-dev)")
+
+
+def read_cad(path, *, chord_error, sharp_angle, follow, join_parts):
+    if not has_cad():
+        raise InvalidInput(f"{path}: {_missing_cad()}, or have your CAD program write STL or PLY")
+    reader = filters.vtkQuadrilleCADReader()
+    reader.SetFileName(path)
+    reader.SetChordError(chord_error)
+    reader.SetSharpAngle(sharp_angle)
+    reader.SetFollow(follow)
+    reader.SetJoinParts(join_parts)
+    with _Silence():
+        reader.Update()
+    if reader.GetOutcomeText():
+        raise InvalidInput(reader.GetOutcomeText())
+    return reader.GetOutputDataObject(0)
+
+
+def on_cad_geometry(mesh):
+    if not has_cad():
+        raise InvalidInput(_missing_cad())
+    projection = filters.vtkQuadCADProjection()
+    projection.SetInputDataObject(mesh)
+    with _Silence():
+        projection.Update()
+    if projection.GetOutcomeText():
+        raise InvalidInput(projection.GetOutcomeText())
+    return projection.GetOutputDataObject(0)
+
+
 def read(path):
+    if os.path.splitext(path)[1].lower() in _CAD:
+        return read_cad(path, chord_error=0.0005, sharp_angle=5.0, follow=0, join_parts=True)
     reader = _reader_for(path)
     if not os.path.isfile(path):
         raise InvalidInput(f"{path}: there is no such file")

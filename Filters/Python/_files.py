@@ -4,15 +4,46 @@
 import os
 
 from ._backend import backend
-from ._errors import one_of
+from ._errors import one_of, real
 from ._inputs import surface_of_arrays
 
 
 def read(path):
     """The surface in a file as a vtkPolyData: .ply and .off with all properties of their vertices and faces, .obj,
-    .stl, .vtp or .vtk. Without VTK as a Mesh, and of .ply, .off, .obj and .stl. Raises InvalidInput where the file is
-    missing, damaged or of another kind."""
+    .stl, .vtp or .vtk; of CAD files (.step, .stp, .iges, .igs, .brep) see read_cad(), with its defaults. Without VTK as
+    a Mesh, and of .ply, .off, .obj and .stl. Raises InvalidInput where the file is missing, damaged or of another
+    kind."""
     return backend.read(os.fspath(path))
+
+
+#: Which edges of a CAD file become features, in the order of vtkQuadrilleCADReader's.
+FOLLOW = ("sharp", "all", "none")
+
+
+def read_cad(path, *, chord_error=0.0005, sharp_angle=5.0, follow="sharp", join_parts=True):
+    """The faces of a CAD file (.step, .stp, .iges, .igs, .brep) as triangles that know them, in millimetres: a
+    vtkPolyData with the cell arrays CadFaceId, PatchNames (names of the faces, of which write() makes sets) and
+    FeatureEdges, and with the exact shape in the field data. remesh() takes it as it is.
+
+    chord_error: by how much triangles may lie off the shape, over the diagonal of the part, 1e-6 to 0.1.
+    sharp_angle: edges whose faces meet at a larger angle are sharp, degrees.
+    follow: which edges become edges of the quads: "sharp", "all" (also where faces go on into each other), "none".
+    join_parts: False: an assembly is a vtkMultiBlockDataSet with a block for each instance.
+
+    Raises InvalidInput where the file is missing or damaged, and where this build has no Open CASCADE.
+    """
+    return backend.read_cad(
+        os.fspath(path), chord_error=real("chord_error", chord_error, least=1e-6, most=0.1),
+        sharp_angle=real("sharp_angle", sharp_angle, least=0.1, most=179),
+        follow=one_of("follow", follow, FOLLOW),
+        join_parts=bool(join_parts))
+
+
+def on_cad_geometry(mesh):
+    """Quads, or elements of second order, that were made on a surface of a CAD file, with their nodes on the exact
+    surfaces, curves and vertices of the file. The point array CadPlace tells where each is (0: it stays, 1: face, 2:
+    edge, 3: vertex), CadId of which face, edge or vertex. Raises InvalidInput where the mesh has no shape."""
+    return backend.on_cad_geometry(mesh)
 
 
 #: Whose input decks are written, and the versions of Gmsh's format, in the order of vtkQuadMeshWriter's.

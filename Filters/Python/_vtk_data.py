@@ -67,11 +67,13 @@ def add_array(attributes, name, values):
 
 
 def fields_of(data):
-    """The field data as a dict of lists."""
+    """The field data as a dict of lists, without the exact shape of a CAD file, which are bytes."""
     fields = data.GetFieldData()
     result = {}
     for i in range(fields.GetNumberOfArrays()):
         array = fields.GetAbstractArray(i)
+        if array.GetName() == "CadShape":
+            continue
         values = [array.GetVariantValue(k) for k in range(array.GetNumberOfValues())]
         result[array.GetName()] = [
             v.ToString() if v.IsString() else (v.ToDouble() if v.IsFloat() or v.IsDouble() else v.ToTypeInt64())

@@ -11,6 +11,7 @@ needed=(
   paraview paraview-dev python3-paraview
   libopenmpi-dev openmpi-bin            # ParaView's CMake files ask for MPI::MPI_C
   libcgal-dev libeigen3-dev libsuitesparse-dev
+  libocct-data-exchange-dev             # STEP, IGES and BREP files, by Open CASCADE
   qttools5-dev qtxmlpatterns5-dev-tools # the pages behind the question mark in ParaView's panel, also where its window
                                         # is of Qt 6, see CMake/QuadrilleVtkVersions.cmake
   libcli11-dev nlohmann-json3-dev       # options and reports of the commands, files of sessions

@@ -32,6 +32,7 @@ else
   build=build-wheel/$($python -c 'import sys; print("cp%d%d" % sys.version_info[:2])')
   cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPython3_EXECUTABLE=$python \
     -DQUADRILLE_BUILD_PLUGIN=OFF -DQUADRILLE_BUILD_TESTS=OFF -DQUADRILLE_BUILD_WHEEL=ON -DQUADRILLE_USE_CGAL=OFF \
+    -DQUADRILLE_CAD=OFF \
     -DQUADRILLE_UNITY_BUILD=ON "${options[@]}"
   cmake --build "$build" --target quadrille_native
   cmake --install "$build" --component Wheel --strip --prefix "$work"

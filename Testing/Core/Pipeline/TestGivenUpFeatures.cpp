@@ -140,5 +140,28 @@ TEST(GivenUpFeatures, BordersOfPatchesYieldWhereTheyMay)
   EXPECT_EQ(yielding.quads.points, asked.quads.points);
 }
 
+/// The same borders as edges of a design.
+TEST(GivenUpFeatures, EdgesOfADesignYield)
+{
+  const test::PatchedMesh tube = test::staggeredTube(0.02);
+  SurfaceInput input = test::toInput(tube.mesh);
+  const Mesh& mesh = tube.mesh;
+  input.featureEdges.assign(mesh.faceCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const bool isBorder =
+      !mesh.isBoundary(h) && tube.patch[Mesh::face(h)] != tube.patch[Mesh::face(mesh.twin[h])];
+    input.featureEdges[Mesh::face(h)] |= static_cast<std::uint8_t>(isBorder ? 1U << h % 3 : 0U);
+  }
+  RemeshOptions options;
+  options.quads = 300;
+  options.threads = 1;
+  options.featureAngle.reset();
+  EXPECT_FALSE(remesh(input, options).status.ok()); // what was asked for stays
+  input.featuresYield = true;
+  const RemeshResult result = remesh(input, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+}
+
 } // namespace
 } // namespace quadrille

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Nodes for the vertices of a shape that lie within a smooth line of edges, where quads need none by themselves.
+#pragma once
+
+#include "Base/Types.h"
+#include "Cad/Placement.h"
+#include "Cad/Shape.h"
+#include "Cad/Tessellation.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Of each vertex at an end of a sharp or free edge that has no node: the nearest node on one of its edges goes there,
+/// where it is nearer than the mesh is wide, and no quad at it loses more than half of its least sine of a corner.
+/// quads: corners as numbers of places. Returns how many nodes have moved.
+std::size_t takeVertices(const CadShape& shape, const CadSurface& surface,
+  const std::vector<std::array<Index, 4>>& quads, std::vector<CadPlace>& places);
+
+/// Quads that were good and are turned over by their places have their corners where they were, until there are no more.
+/// before: the points that were placed.
+void keepQuads(const std::vector<std::array<Index, 4>>& quads, const std::vector<Vector3>& before,
+  std::vector<CadPlace>& places);
+
+} // namespace quadrille

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Files/CadData.h"
+
+#include "Base/Refuse.h"
+#include "Convert/PolyData.h"
+#include "ElementGrids/Elements.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+template <class Array>
+vtkSmartPointer<Array> named(const char* name, std::size_t count, int components = 1)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
+  return array;
+}
+
+vtkSmartPointer<vtkPoints> pointsOf(const std::vector<Vector3>& from)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(from.size()));
+  for (std::size_t i = 0; i < from.size(); ++i)
+  {
+    points->SetPoint(static_cast<vtkIdType>(i), from[i].data());
+  }
+  return points;
+}
+
+std::string nameOfFace(const CadPart& part, std::size_t face)
+{
+  return part.faceNames[face].empty() ? kUnnamedFace + std::to_string(face + 1)
+                                      : part.faceNames[face];
+}
+
+bool isFollowed(CadEdgeKind kind, CadFollow follow)
+{
+  return follow != CadFollow::None &&
+    (kind == CadEdgeKind::Sharp || (kind == CadEdgeKind::Tangent && follow == CadFollow::All));
+}
+
+/// Both ends of the segments of followed edges, the lower one first.
+std::set<std::pair<Index, Index>> followedSegments(const CadSurface& surface, CadFollow follow)
+{
+  std::set<std::pair<Index, Index>> segments;
+  for (const CadEdge& edge : surface.edges)
+  {
+    for (std::size_t i = 0; isFollowed(edge.kind, follow) && i + 1 < edge.points.size(); ++i)
+    {
+      segments.insert(std::minmax(edge.points[i], edge.points[i + 1]));
+    }
+  }
+  return segments;
+}
+
+void addCellArrays(const CadPart& part, CadFollow follow, vtkPolyData* data)
+{
+  const CadSurface& surface = part.surface;
+  const std::size_t count = surface.triangles.size();
+  const auto faces = named<vtkIntArray>(arrays::kCadFaceId, count);
+  const auto names = named<vtkStringArray>(arrays::kPatchNames, count);
+  const auto features = named<vtkUnsignedCharArray>(arrays::kFeatureEdges, count);
+  const auto colours = named<vtkUnsignedCharArray>("CadColour", count, 3);
+  const std::set<std::pair<Index, Index>> segments = followedSegments(surface, follow);
+  bool hasColours = false;
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    const auto cell = static_cast<vtkIdType>(t);
+    const Index face = surface.faceOf[t];
+    unsigned bits = 0;
+    for (unsigned i = 0; i < 3; ++i)
+    {
+      const std::array<Index, 3>& c = surface.triangles[t];
+      bits |= segments.count(std::minmax(c[i], c[(i + 1) % 3])) > 0 ? 1U << i : 0U;
+    }
+    faces->SetValue(cell, static_cast<int>(face));
+    names->SetValue(cell, nameOfFace(part, face));
+    features->SetValue(cell, static_cast<unsigned char>(bits));
+    constexpr std::array<double, 3> kGrey{ 0.8, 0.8, 0.8 };
+    const std::array<double, 3> colour = part.faceColours[face].value_or(kGrey);
+    hasColours = hasColours || part.faceColours[face].has_value();
+    for (int k = 0; k < 3; ++k)
+    {
+      const double value = std::round(255 * colour[static_cast<std::size_t>(k)]);
+      colours->SetTypedComponent(cell, k, static_cast<unsigned char>(value));
+    }
+  }
+  vtkCellData* cells = data->GetCellData();
+  cells->AddArray(faces);
+  cells->AddArray(names);
+  cells->AddArray(features);
+  if (hasColours)
+  {
+    cells->AddArray(colours);
+  }
+}
+
+void addFieldArrays(const CadPart& part, const std::string& unit,
+  const TessellationOptions& options, CadFollow follow, vtkFieldData* fields)
+{
+  const std::vector<std::uint8_t> bytes = part.shape.bytes();
+  const auto shape = named<vtkUnsignedCharArray>(arrays::kCadShape, bytes.size());
+  std::copy(bytes.begin(), bytes.end(), shape->GetPointer(0));
+  const auto tessellation = named<vtkDoubleArray>(arrays::kCadTessellation, 4);
+  tessellation->SetValue(0, options.chordError);
+  tessellation->SetValue(1, options.angle);
+  tessellation->SetValue(2, options.sharpAngle);
+  tessellation->SetValue(3, follow == CadFollow::All ? 1 : 0);
+  const std::size_t faces = part.surface.surfaceKinds.size();
+  const auto names = named<vtkStringArray>("CadFaceNames", faces);
+  const auto kinds = named<vtkStringArray>("CadSurfaceKinds", faces);
+  for (std::size_t f = 0; f < faces; ++f)
+  {
+    names->SetValue(static_cast<vtkIdType>(f), nameOfFace(part, f));
+    kinds->SetValue(static_cast<vtkIdType>(f), wordOf(part.surface.surfaceKinds[f]));
+  }
+  const auto unitOfFile = named<vtkStringArray>("CadUnitOfFile", 1);
+  unitOfFile->SetValue(0, unit);
+  for (vtkAbstractArray* array :
+    std::initializer_list<vtkAbstractArray*>{ shape, tessellation, names, kinds, unitOfFile })
+  {
+    fields->AddArray(array);
+  }
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPolyData> cadPolyData(const CadPart& part, const std::string& unit,
+  const TessellationOptions& options, CadFollow follow)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(pointsOf(part.surface.points));
+  vtkNew<vtkCellArray> triangles;
+  for (const std::array<Index, 3>& c : part.surface.triangles)
+  {
+    const std::array<vtkIdType, 3> ids{ c[0], c[1], c[2] };
+    triangles->InsertNextCell(3, ids.data());
+  }
+  data->SetPolys(triangles);
+  addCellArrays(part, follow, data);
+  addFieldArrays(part, unit, options, follow, data->GetFieldData());
+  return data;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> cadEdges(const std::vector<CadPart>& parts)
+{
+  std::vector<Vector3> points;
+  vtkNew<vtkCellArray> lines;
+  const auto numbers = named<vtkIntArray>("CadPart", 0);
+  const auto ids = named<vtkIntArray>("CadEdgeId", 0);
+  const auto kinds = named<vtkStringArray>("CadEdgeKind", 0);
+  const auto angles = named<vtkDoubleArray>("CadEdgeAngle", 0);
+  const auto names = named<vtkStringArray>("CadEdgeName", 0);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+  {
+    const CadSurface& surface = parts[p].surface;
+    const std::size_t first = points.size();
+    points.insert(points.end(), surface.points.begin(), surface.points.end());
+    for (std::size_t e = 0; e < surface.edges.size(); ++e)
+    {
+      const CadEdge& edge = surface.edges[e];
+      if (edge.points.size() < 2)
+      {
+        continue;
+      }
+      lines->InsertNextCell(static_cast<int>(edge.points.size()));
+      for (const Index point : edge.points)
+      {
+        lines->InsertCellPoint(static_cast<vtkIdType>(first + point));
+      }
+      numbers->InsertNextValue(static_cast<int>(p));
+      ids->InsertNextValue(static_cast<int>(e));
+      kinds->InsertNextValue(wordOf(edge.kind));
+      angles->InsertNextValue(vtkMath::DegreesFromRadians(edge.angle));
+      names->InsertNextValue(parts[p].edgeNames[e]);
+    }
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(pointsOf(points));
+  data->SetLines(lines);
+  for (vtkAbstractArray* array :
+    std::initializer_list<vtkAbstractArray*>{ numbers, ids, kinds, angles, names })
+  {
+    data->GetCellData()->AddArray(array);
+  }
+  return data;
+}
+
+//------------------------------------------------------------------------------
+CadSource cadSource(vtkFieldData* fields)
+{
+  auto* shape = vtkUnsignedCharArray::SafeDownCast(fields->GetAbstractArray(arrays::kCadShape));
+  vtkDataArray* options = fields->GetArray(arrays::kCadTessellation);
+  refuseIf(!shape || !options || options->GetNumberOfTuples() != 4, "the field data have no ",
+    arrays::kCadShape, " with ", arrays::kCadTessellation,
+    ": take quads that were made on a surface from the CAD reader");
+  CadSource source;
+  const unsigned char* bytes = shape->GetPointer(0);
+  source.shape =
+    CadShape::ofBytes(std::vector<std::uint8_t>(bytes, bytes + shape->GetNumberOfValues()));
+  source.options.chordError = options->GetTuple1(0);
+  source.options.angle = options->GetTuple1(1);
+  source.options.sharpAngle = options->GetTuple1(2);
+  source.tangentEdges = options->GetTuple1(3) != 0;
+  return source;
+}
+
+} // namespace quadrille

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkQuadCADProjection
+ * @brief   nodes of quads, put from the triangles onto the exact shape of the CAD file
+ *
+ * The input is quads, or elements of second order, that were made on a surface of vtkQuadrilleCADReader: the exact shape
+ * is in their field data. The output has the same cells; a node on the polyline of a followed or free edge goes onto the
+ * curve of that edge, one on a vertex of the shape onto that, all others onto the surface of the face whose triangle is
+ * nearest, without leaving this face. Of quads of first order one node each also moves along its edge to a vertex that
+ * would have none, as where an edge of the part is divided. Nodes stay where that is not possible, and where a quad would
+ * be turned over.
+ *
+ * Point arrays: `CadPlace` (0: the node stays, 1: on a face, 2: on an edge, 3: on a vertex), `CadId` (of the face, edge
+ * or vertex; -1), `CadNormal` and `CadCurvature` (the larger and the smaller one) of the exact surface. Field data:
+ * `NodesOnGeometry`, `NodesOffGeometry`.
+ *
+ * There where vtkQuadrilleCADReader is.
+ */
+#ifndef vtkQuadCADProjection_h
+#define vtkQuadCADProjection_h
+
+#include "QuadrilleFiltersModule.h" // for the export macro
+#include "vtkPassInputTypeAlgorithm.h"
+
+#include <string> // for std::string
+
+class vtkPointSet;
+
+class QUADRILLEFILTERS_EXPORT vtkQuadCADProjection : public vtkPassInputTypeAlgorithm
+{
+public:
+  static vtkQuadCADProjection* New();
+  vtkTypeMacro(vtkQuadCADProjection, vtkPassInputTypeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Nodes farther from the triangles than this stay, as part of the diagonal of the shape; 0: the chord error of the
+   * triangles. Default: 0.
+   */
+  vtkSetClampMacro(Reach, double, 0.0, 1.0);
+  vtkGetMacro(Reach, double);
+  ///@}
+
+  ///@{
+  /// Of the last execution.
+  vtkGetMacro(NodesOnGeometry, vtkIdType);
+  vtkGetMacro(NodesOffGeometry, vtkIdType);
+  ///@}
+
+  /// Why the last execution gave nothing; empty after success.
+  const char* GetOutcomeText() { return this->OutcomeText.c_str(); }
+
+protected:
+  vtkQuadCADProjection();
+  ~vtkQuadCADProjection() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkQuadCADProjection(const vtkQuadCADProjection&) = delete;
+  void operator=(const vtkQuadCADProjection&) = delete;
+
+  void Project(vtkPointSet* input, vtkPointSet* output);
+
+  double Reach = 0;
+  vtkIdType NodesOnGeometry = 0;
+  vtkIdType NodesOffGeometry = 0;
+  std::string OutcomeText;
+};
+
+#endif

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""In pvpython: a STEP file by the plugin's reader, quads, nodes on the exact shape, a deck; blocks, a state file.
+
+  test_cad.py CAD_SHAPES WORK_DIR
+"""
+import os
+import subprocess
+import sys
+
+from paraview import simple
+
+from plugin_common import PLUGIN, check, size_of
+
+SHAPES, WORK = sys.argv[1:3]
+subprocess.run([SHAPES, WORK], check=True, stdout=subprocess.DEVNULL)
+simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+named, assembly = os.path.join(WORK, "named.step"), os.path.join(WORK, "assembly.step")
+
+
+def places(proxy):
+    """How many nodes stay, and how many there are."""
+    fields = proxy.GetDataInformation().GetFieldDataInformation()
+    off = fields.GetArrayInformation("NodesOffGeometry").GetComponentRange(0)
+    return off[1], proxy.GetDataInformation().GetNumberOfPoints()
+
+
+# As File > Open does: the reader is found by the extension.
+part = simple.OpenDataFile(named)
+check(part.SMProxy.GetXMLName() == "QuadrilleCADReader", "STEP files are opened by another reader")
+quads = QuadRemesh(Input=part, NumberOfQuads=600)
+exact = QuadNodesOnCADGeometry(Input=quads)
+exact.UpdatePipeline()
+check(size_of(exact) == size_of(quads) > 0, "the filter changes the quads")
+check(places(exact)[0] == 0, "nodes stay on the triangles")
+check(exact.PointData["CadPlace"].GetRange() == (1, 3), "CadPlace has not faces, edges and vertices")
+deck = os.path.join(WORK, "window.inp")
+simple.SaveData(deck, proxy=exact)
+text = open(deck).read()
+check("ELSET=SUPPORT" in text.upper() and "ELSET=BORE" in text.upper(), "faces with names are no sets of the deck")
+
+elements = QuadElements(Input=quads, Surface=part, Order="Second")
+second = QuadNodesOnCADGeometry(Input=elements)
+second.UpdatePipeline()
+check(places(second)[0] == 0 and places(second)[1] > places(exact)[1], "nodes of second order stay")
+
+# The edges are the second output.
+edges = simple.OutputPort(part, 1)
+check(part.GetDataInformation(1).GetNumberOfCells() == 15, "the edges are not those of the shape")
+
+both = QuadrilleCADReader(FileName=assembly)
+both.UpdatePipeline()
+check(both.GetDataInformation().GetCompositeDataClassName() == "vtkMultiBlockDataSet", "instances are no blocks")
+blocks = QuadNodesOnCADGeometry(Input=QuadRemesh(Input=both, NumberOfQuads=800))
+blocks.UpdatePipeline()
+check(size_of(blocks) > 500, "no quads on the blocks")
+both.JoinParts = 1
+both.UpdatePipeline()
+check(both.GetDataInformation().GetDataClassName() == "vtkPolyData", "joined parts are no surface")
+
+state = os.path.join(WORK, "cad.pvsm")
+simple.SaveState(state)
+count = size_of(exact)
+simple.ResetSession()
+simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+simple.LoadState(state)
+again = [proxy for (name, _), proxy in simple.GetSources().items() if proxy.SMProxy.GetXMLName() == "QuadCADProjection"]
+check(len(again) == 3, "the state has other filters")
+for proxy in again:
+    proxy.UpdatePipeline()
+check(count in [size_of(proxy) for proxy in again], "the state gives other quads")
+print("cad: fine")
