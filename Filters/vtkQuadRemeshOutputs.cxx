@@ -64,7 +64,7 @@ std::vector<quadrille::Vector3> middlesOfInverted(const quadrille::QuadMesh& qua
 }
 
 /// What is wrong comes first.
-std::string troubleText(
+std::string defectText(
   const quadrille::RemeshResult& result, const std::vector<quadrille::Vector3>& inverted)
 {
   std::ostringstream text;
@@ -200,13 +200,13 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   {
     problems.cells.push_back(run.converted.cell(polygon));
   }
-  const std::string trouble = troubleText(result, problems.inverted);
-  problems.words = { trouble };
+  const std::string defect = defectText(result, problems.inverted);
+  problems.words = { defect };
   block.output(this->GetProblemPort())->ShallowCopy(quadrille::writeProblems(problems));
-  block.state->report.isTroubled = !trouble.empty();
-  block.state->report.result = trouble +
+  block.state->report.hasDefect = !defect.empty();
+  block.state->report.result = defect +
     resultText(result, written.irregular->GetNumberOfPoints()) +
-    (trouble.empty() && !result.quads.quads.empty() ? ", all valid" : "") + constraintText(words);
+    (defect.empty() && !result.quads.quads.empty() ? ", all valid" : "") + constraintText(words);
   block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
 }
 

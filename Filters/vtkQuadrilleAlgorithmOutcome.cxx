@@ -196,7 +196,7 @@ void vtkQuadrilleAlgorithm::SetReports(
       : report.outcome == Succeeded            ? made
                                                : "Failed: " + report.outcomeText;
     addLines(this->ResultText, name, verdict);
-    const bool isWell = report.outcome == Succeeded && !report.isTroubled;
+    const bool isWell = report.outcome == Succeeded && !report.hasDefect;
     if (this->Verdict.empty() || (isVerdictWell && !isWell))
     {
       this->Verdict = (name.empty() ? "" : name + ": ") + verdict;

@@ -215,7 +215,7 @@ void BlockReport::pack(Packer& packer) const
   packer.text(outcomeText);
   packer.count(mayPass);
   packer.count(isSoFar);
-  packer.count(isTroubled);
+  packer.count(hasDefect);
   packer.count(showsFailure);
   packer.text(result);
   packer.text(stageTimes);
@@ -237,7 +237,7 @@ BlockReport BlockReport::unpack(Unpacker& unpacker)
   report.outcomeText = unpacker.text();
   report.mayPass = unpacker.count() != 0;
   report.isSoFar = unpacker.count() != 0;
-  report.isTroubled = unpacker.count() != 0;
+  report.hasDefect = unpacker.count() != 0;
   report.showsFailure = unpacker.count() != 0;
   report.result = unpacker.text();
   report.stageTimes = unpacker.text();

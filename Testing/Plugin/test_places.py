@@ -240,7 +240,8 @@ def replay(path, program, programs, environment):
         if line.startswith("replayed"):
             digest, cells, connected = line.split()[2:]
             return digest, int(cells), int(connected)
-    raise SystemExit(f"FAILED: {program} does not run {path.name}\n{path.read_text(encoding='utf-8')}\n{done.stdout}{done.stderr}")
+    raise SystemExit(f"FAILED: {program} does not run {path.name}\n{path.read_text(encoding='utf-8')}\n"
+                     f"{done.stdout}{done.stderr}")
 
 
 def traces(folder, programs, chance, count):
