@@ -92,7 +92,8 @@ void vtkQuadMeshWriter::SetPatchArrayName(const char* name)
 //------------------------------------------------------------------------------
 void vtkQuadMeshWriter::SetElementType(const char* type)
 {
-  this->SetText(this->ElementType, type);
+  const bool isAutomatic = type != nullptr && std::string(type) == "Automatic";
+  this->SetText(this->ElementType, isAutomatic ? "" : type);
 }
 
 //------------------------------------------------------------------------------

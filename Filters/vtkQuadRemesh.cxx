@@ -13,6 +13,7 @@
 #include "Convert/Quads.h"
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/ResultStore.h"
+#include "Runs/Problems.h"
 #include "Runs/RunOfBlock.h"
 #include "Symmetry/Symmetry.h"
 
@@ -35,7 +36,7 @@ vtkStandardNewMacro(vtkQuadRemesh);
 vtkQuadRemesh::vtkQuadRemesh()
 {
   this->SetNumberOfInputPorts(7);
-  this->SetNumberOfOutputPorts(8);
+  this->SetNumberOfOutputPorts(9);
 }
 
 //------------------------------------------------------------------------------
@@ -122,12 +123,6 @@ void vtkQuadRemesh::CheckProperties() const
     throw quadrille::InvalidInput("the method 'seamless' makes no quads, so there is nothing to "
                                   "preview: switch Preview off or choose another method");
   }
-  if (this->Method == METHOD_SEAMLESS && !this->ComputeMappedSurface)
-  {
-    throw quadrille::InvalidInput(
-      "the method 'seamless' makes no quads, and its result, the mapped surface, is "
-      "switched off: switch ComputeMappedSurface on or choose another method");
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -153,8 +148,8 @@ quadrille::RemeshOptions vtkQuadRemesh::MakeRunOptions(const quadrille::Block& b
   options.removeSmallComponents = this->SmallComponents == REMOVE_SMALL_COMPONENTS;
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
   options.distortionMetric = this->DistortionMetric != 0;
-  options.mergeCharts = this->ComputeMappedSurface != 0;
-  options.keepsPositions = this->ComputeMappedSurface != 0 || this->Symmetry != SYMMETRY_NONE ||
+  options.mergeCharts = this->MakesMappedSurface();
+  options.keepsPositions = this->MakesMappedSurface() || this->Symmetry != SYMMETRY_NONE ||
     this->CellDataFrom != CELL_DATA_FROM_CENTRE;
   options.progress = this->MakeProgress(0.02, 0.95);
   options.warmStart = this->WarmStart != 0;
@@ -217,7 +212,41 @@ void vtkQuadRemesh::TellRun(quadrille::Block& block, const quadrille::RemeshResu
   {
     this->AddNotice(notice);
   }
+  const quadrille::FailedParts& failed = result.failed;
+  if (failed.components > 0)
+  {
+    report.numbers["ComponentsWithoutQuads"] = static_cast<double>(failed.components);
+    report.certificate =
+      failed.countText() + ", without a map; of the others: " + report.certificate;
+    vtkWarningMacro(<< failed.text());
+  }
+  if (!result.status.ok())
+  {
+    quadrille::Problems problems;
+    problems.failed = failed.places;
+    problems.surface = block.state->lastResult.empty() ? block.input() : nullptr;
+    problems.words = { result.status.message };
+    block.output(GetProblemPort())->ShallowCopy(quadrille::writeProblems(problems));
+  }
   quadrille::requireOk(result.status, "remeshing");
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataObject> vtkQuadRemesh::MakeProblems(quadrille::Block& block)
+{
+  const auto port = static_cast<std::size_t>(this->GetProblemPort());
+  if (port < block.outputs.size() && block.output(this->GetProblemPort())->GetNumberOfCells() > 0)
+  {
+    return block.outputs[port];
+  }
+  if (!block.state->lastResult.empty() || block.inputs.empty() || !block.input())
+  {
+    return nullptr; // the quads from before are shown, or there is nothing
+  }
+  quadrille::Problems problems;
+  problems.surface = block.input();
+  problems.words = { block.state->report.outcomeText };
+  return quadrille::writeProblems(problems);
 }
 
 //------------------------------------------------------------------------------
@@ -229,6 +258,8 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   quadrille::AskedConstraints asked;
   const std::unique_ptr<quadrille::TriangleSource> toCut = this->TrianglesToCut(block, options);
   const bool isThinned = !toCut && this->IsWorthThinning(block, options);
+  options.leavesOutFailed = this->FailedComponents == LEAVE_OUT_FAILED_COMPONENTS && !toCut &&
+    !isThinned && this->Symmetry == SYMMETRY_NONE;
   quadrille::ConvertedSurface converted =
     toCut ? this->ConvertForPieces(block) : this->ConvertInputs(block, &asked);
   quadrille::PiecesResult pieces;
@@ -277,7 +308,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
       " quads where its share is " + std::to_string(*options.quads) +
       ": its topology and its features take so many");
   }
-  if (this->ComputeMappedSurface)
+  if (this->MakesMappedSurface())
   {
     vtkPolyData* mapped = block.output(1);
     if (result.mapIsKnown)
@@ -330,6 +361,7 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "CloseHandles " << this->CloseHandles << '\n'
      << "SmallDetails " << this->SmallDetails << '\n'
      << "SmallComponents " << this->SmallComponents << '\n'
+     << "FailedComponents " << this->FailedComponents << '\n'
      << "SpreadSurfaces " << this->SpreadSurfaces << '\n'
      << "Pieces " << this->Pieces << '\n'
      << "WarmStart " << this->WarmStart << '\n'
@@ -372,6 +404,8 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LeastAnisotropy: " << this->LeastAnisotropy << "\n";
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";
   os << indent << "SmallDetails: " << this->SmallDetails << "\n";
+  os << indent << "FailedComponents: " << this->FailedComponents << "\n";
+  os << indent << "ComponentsWithoutQuads: " << this->GetComponentsWithoutQuads() << "\n";
   os << indent << "SmallComponents: " << this->SmallComponents << "\n";
   os << indent << "SpreadSurfaces: " << this->SpreadSurfaces << "\n";
   os << indent << "Pieces: " << this->Pieces << "\n";

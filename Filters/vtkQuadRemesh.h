@@ -53,12 +53,16 @@
  *    (the length of the loop, of a component the square root of its area, over the target edge length and the
  *    sizes there), `Decision` ("resolved": quads are smaller there, "simplified", "kept"), `Result` (what became
  *    of it), `DecisionId` (0 resolved, 1 simplified, 2 kept).
+ * 8. what is wrong, to be seen beside the quads: the polygons that have none, those of components that were left out
+ *    (see FailedComponents) or, after a failure without quads from before, all of the input; and a vertex for each place
+ *    where the map or the quads have failed, and for each inverted quad. Cells: `Problem` (0 without quads, 1 fails
+ *    here, 2 inverted). Field data: `Words`, what is told of it. Empty where all is well.
  *
  * Field data of output 0, beside that of the input: `LayoutPatchShape` (a patch: 0 four corners, 1 ring, 2 torus) and
  * `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`,
  * `ReusedStages`, `Certificate`, `CertificateValid`, `CertificateNames`, `CertificateValues`, `Method`, `RepairNames`,
  * `RepairCounts`, `ExtractionNames`, `ExtractionCounts`, `Notices`, `EstimatedSeconds`, `EstimatedMegabytes`,
- * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`,
+ * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `ComponentsWithoutQuads` where there are any, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`,
  * `Attempts` (maps that were tried), `RecoveryNames` and `RecoveryCounts` (the strategies that made all but the first
  * one), `TryNames`, `TriesTaken` and `TriesLed` (what was tried otherwise in any stage, how often, and how often that
  * is used), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the
@@ -280,6 +284,23 @@ public:
   vtkGetMacro(SmallComponents, int);
   ///@}
 
+  /// The values of FailedComponents, see there.
+  enum FailedComponentsTypes
+  {
+    LEAVE_OUT_FAILED_COMPONENTS = 0,
+    FAIL_WITH_FAILED_COMPONENTS = 1
+  };
+  ///@{
+  /**
+   * What becomes of connected components that have no map: LEAVE_OUT_FAILED_COMPONENTS makes quads of the others, and
+   * tells it by a warning, in the certificate, by GetComponentsWithoutQuads() and in output 8;
+   * FAIL_WITH_FAILED_COMPONENTS makes no quads at all, as it is also for conforming blocks, surfaces that are thinned
+   * out or cut into pieces, and with a Symmetry. Default: LEAVE_OUT_FAILED_COMPONENTS.
+   */
+  vtkSetClampMacro(FailedComponents, int, LEAVE_OUT_FAILED_COMPONENTS, FAIL_WITH_FAILED_COMPONENTS);
+  vtkGetMacro(FailedComponents, int);
+  ///@}
+
   ///@{
   /**
    * Whether the filter holds on to what each stage has made, so that a change begins where it enters: guides, and the
@@ -439,7 +460,8 @@ public:
   const char* GetReusedStagesText() const { return this->GetReusedStages(); }
 
   ///@{
-  /// Whether output 1, the input surface with the map, is made. Default: on.
+  /// Whether output 1, the input surface with the map, is made; with METHOD_SEAMLESS it is in any case. Default: on, but
+  /// for proxies of ParaView, which switch it on when something takes the output as its input.
   vtkSetMacro(ComputeMappedSurface, vtkTypeBool);
   vtkGetMacro(ComputeMappedSurface, vtkTypeBool);
   vtkBooleanMacro(ComputeMappedSurface, vtkTypeBool);
@@ -456,6 +478,11 @@ public:
   vtkIdType GetActualQuads() const { return this->CountOverBlocks("ActualQuads"); }
   /// Number of quads that the last execution aimed at.
   vtkIdType GetTargetQuads() const { return this->CountOverBlocks("TargetQuads"); }
+  /// Connected components that the last execution has left out, see FailedComponents.
+  vtkIdType GetComponentsWithoutQuads() const
+  {
+    return this->CountOverBlocks("ComponentsWithoutQuads");
+  }
 
   ///@{
   /**
@@ -522,6 +549,8 @@ protected:
     const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const override;
   void PlanSpread(const quadrille::Block& block, const quadrille::SpreadSize& size,
     quadrille::SpreadPlan& plan) const override;
+  int GetProblemPort() const override { return 8; }
+  vtkSmartPointer<vtkDataObject> MakeProblems(quadrille::Block& block) override;
   bool KeepsResult() override { return this->KeepLevels != 0; }
   void AddSettings(std::ostream& os) const override;
   bool AllowsEarlier(const quadrille::BlockReport& report) const override;
@@ -554,6 +583,10 @@ private:
 
   vtkPolyData* GetPolyDataOutputAt(int port);
   void SetSizes(quadrille::RemeshOptions& options) const;
+  bool MakesMappedSurface() const
+  {
+    return this->ComputeMappedSurface != 0 || this->Method == METHOD_SEAMLESS;
+  }
   /// Of the properties, why quads need the surface in one place; empty where they do not.
   std::string ReasonForWhole() const;
   std::string ReasonNotToCut(const quadrille::Block& block) const;
@@ -576,6 +609,7 @@ private:
   double CloseHandles = 0;
   int SmallDetails = SMALL_DETAILS_AUTOMATIC;
   int SmallComponents = KEEP_SMALL_COMPONENTS;
+  int FailedComponents = LEAVE_OUT_FAILED_COMPONENTS;
   double ChordError = 0;
   double GapQuads = 0;
   double SmallestSize = 0.2;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadRemesh.h"
 
+#include "Base/PlaceText.h"
 #include "Base/Types.h"
 #include "Blocks/Blocks.h"
 #include "Common/Report.h"
@@ -11,7 +12,9 @@
 #include "Convert/Quads.h"
 #include "Pipeline/Pipeline.h"
 #include "Quads/PolygonUnder.h"
+#include "Quads/QuadShape.h"
 #include "Runs/InPieces.h"
+#include "Runs/Problems.h"
 #include "Runs/RunOfBlock.h"
 #include "Runs/SmallDetails.h"
 #include "Runs/Symmetry.h"
@@ -43,6 +46,40 @@ quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
   source.carrierCell = [&surface, &converted](quadrille::Index face)
   { return converted.cell(surface.sourcePolygon[face]); };
   return source;
+}
+
+std::vector<quadrille::Vector3> middlesOfInverted(const quadrille::QuadMesh& quads)
+{
+  std::vector<quadrille::Vector3> middles;
+  for (const quadrille::Index q : quadrille::invertedQuads(quads.points, quads.quads))
+  {
+    quadrille::Vector3 sum = quadrille::Vector3::Zero();
+    for (const quadrille::Index p : quads.quads[q])
+    {
+      sum += quads.points[p];
+    }
+    middles.push_back(sum / 4);
+  }
+  return middles;
+}
+
+/// What is wrong comes first.
+std::string defectText(
+  const quadrille::RemeshResult& result, const std::vector<quadrille::Vector3>& inverted)
+{
+  std::ostringstream text;
+  const quadrille::FailedParts& failed = result.failed;
+  if (failed.components > 0)
+  {
+    text << failed.countText() << ", without quads: ";
+  }
+  if (!inverted.empty())
+  {
+    text << inverted.size()
+         << (inverted.size() == 1 ? " quad inverted near " : " quads inverted, one near ")
+         << quadrille::placeText(inverted.front()) << ": ";
+  }
+  return text.str();
 }
 
 std::string resultText(const quadrille::RemeshResult& result, vtkIdType irregular)
@@ -154,8 +191,22 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
   block.output(7)->ShallowCopy(
     quadrille::writeSmallDetails(result.details, result.givenUpFeatures));
-  block.state->report.result =
-    resultText(result, written.irregular->GetNumberOfPoints()) + constraintText(words);
+  quadrille::Problems problems;
+  problems.failed = result.failed.places;
+  problems.inverted = middlesOfInverted(result.quads);
+  problems.surface = result.failed.components > 0 ? input : nullptr;
+  problems.isWhole = false;
+  for (const quadrille::Index polygon : result.failed.polygons)
+  {
+    problems.cells.push_back(run.converted.cell(polygon));
+  }
+  const std::string defect = defectText(result, problems.inverted);
+  problems.words = { defect };
+  block.output(this->GetProblemPort())->ShallowCopy(quadrille::writeProblems(problems));
+  block.state->report.hasDefect = !defect.empty();
+  block.state->report.result = defect +
+    resultText(result, written.irregular->GetNumberOfPoints()) +
+    (defect.empty() && !result.quads.quads.empty() ? ", all valid" : "") + constraintText(words);
   block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
 }
 

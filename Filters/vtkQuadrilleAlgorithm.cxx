@@ -467,5 +467,6 @@ void vtkQuadrilleAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "StageTimesText: " << this->StageTimesText << "\n";
   os << indent << "CertificateText: " << this->CertificateText << "\n";
   os << indent << "NoticesText: " << this->NoticesText << "\n";
+  os << indent << "Verdict: " << this->Verdict << "\n";
   os << indent << "ResultText: " << this->ResultText << "\n";
 }

@@ -129,6 +129,9 @@ public:
   const char* GetNoticesText() { return this->NoticesText.c_str(); }
   /// What the last execution made, or why it failed, and the notices: for the panel.
   const char* GetResultText() { return this->ResultText.c_str(); }
+  /// Its first line, unbroken: what was made and whether all is well with it, or why there is nothing. Of several
+  /// blocks the first one with something to tell counts.
+  const char* GetVerdict() { return this->Verdict.c_str(); }
 
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -198,6 +201,14 @@ protected:
 
   /// The filter's own work on one block: fills its outputs. Throws on any failure, which becomes the block's error.
   virtual void Execute(quadrille::Block& block) = 0;
+
+  /// The output that shows what is wrong with a block, also where it failed; -1: none. Default: none.
+  virtual int GetProblemPort() const { return -1; }
+  /// Of a block that failed, for that output; null where there is nothing to show.
+  virtual vtkSmartPointer<vtkDataObject> MakeProblems(quadrille::Block& /*block*/)
+  {
+    return nullptr;
+  }
 
   /// Whether blocks that meet are executed together: those whose boxes touch go to one rank, and FindTogether() is
   /// asked. Default: no.
@@ -279,6 +290,7 @@ private:
   void ExecuteBlock(quadrille::Block& block);
   void ConcludeBlock(Work& work);
   void FailBlock(quadrille::BlockState& state, OutcomeType outcome, const std::string& text);
+  void ShowFailure(quadrille::Block& block);
   void FailBlockAsStopped(quadrille::BlockState& state);
   void FailBlockBy(quadrille::BlockState& state, const std::exception_ptr& failure);
   std::string StopText() const;
@@ -309,6 +321,7 @@ private:
   std::string CertificateText;
   std::string NoticesText;
   std::string ResultText;
+  std::string Verdict;
   std::string ReusedText;
 };
 

@@ -107,6 +107,10 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
       {
         result->ShallowCopy(work.block.state->lastResult[static_cast<std::size_t>(port)]);
       }
+      if (port == this->GetProblemPort() && work.block.state->problems)
+      {
+        result->ShallowCopy(work.block.state->problems);
+      }
     }
     quadrille::writeBlocks(run.trees[0], results, run.input, vtkDataObject::GetData(outputs, port));
   }
@@ -149,8 +153,9 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
   {
     this->ReportFailure(this->OutcomeText);
   }
-  // The results of the other blocks are valid and have to be seen.
-  return std::any_of(this->Reports.begin(), this->Reports.end(), hasResult);
+  // The results of the other blocks are valid and have to be seen, and so has what shows a failure.
+  return std::any_of(this->Reports.begin(), this->Reports.end(),
+    [&](const quadrille::BlockReport& report) { return hasResult(report) || report.showsFailure; });
 }
 
 //------------------------------------------------------------------------------
@@ -159,7 +164,8 @@ int vtkQuadrilleAlgorithm::ReportFailure(const std::string& text)
   this->OutcomeText = text;
   if (this->ResultText.empty())
   {
-    this->ResultText = quadrille::wrapLines("Failed: " + text, kPanelWidth);
+    this->Verdict = "Failed: " + text;
+    this->ResultText = quadrille::wrapLines(this->Verdict, kPanelWidth);
   }
   if (this->IsRoot)
   {
@@ -173,6 +179,7 @@ void vtkQuadrilleAlgorithm::SetReports(
   const std::vector<std::pair<std::string, quadrille::BlockReport>>& reports)
 {
   this->Outcome = Succeeded;
+  bool isVerdictWell = true;
   for (const auto& [name, report] : reports)
   {
     // A stop on request weighs most, as the filter is then left out of date; else the first failure counts.
@@ -185,10 +192,16 @@ void vtkQuadrilleAlgorithm::SetReports(
     addLines(this->CertificateText, name, report.certificate);
     addLines(this->NoticesText, name, joinLines(report.notices));
     const std::string made = report.result.empty() ? "Done" : report.result;
-    addLines(this->ResultText, name,
-      report.isSoFar                  ? made + "; " + report.outcomeText
-        : report.outcome == Succeeded ? made
-                                      : "Failed: " + report.outcomeText);
+    const std::string verdict = report.isSoFar ? made + "; " + report.outcomeText
+      : report.outcome == Succeeded            ? made
+                                               : "Failed: " + report.outcomeText;
+    addLines(this->ResultText, name, verdict);
+    const bool isWell = report.outcome == Succeeded && !report.hasDefect;
+    if (this->Verdict.empty() || (isVerdictWell && !isWell))
+    {
+      this->Verdict = (name.empty() ? "" : name + ": ") + verdict;
+      isVerdictWell = isWell;
+    }
     this->IsSoFar = this->IsSoFar || report.isSoFar;
     for (const std::string& notice : report.notices)
     {
@@ -242,5 +255,6 @@ void vtkQuadrilleAlgorithm::ResetOutcome()
   this->CertificateText.clear();
   this->NoticesText.clear();
   this->ResultText.clear();
+  this->Verdict.clear();
   this->ReusedText.clear();
 }

@@ -91,6 +91,7 @@ bool vtkQuadrilleAlgorithm::TakeEarlier(Work& work, bool andUse)
   if (andUse)
   {
     state.lastResult = earlier->result;
+    state.problems = nullptr;
     state.isSpread = false;
     state.report = earlier->report;
     state.report.reusedStages = { "all" };
@@ -112,6 +113,10 @@ void vtkQuadrilleAlgorithm::RunTogether(
   Work& first = *works.front();
   this->Report = &first.block.state->report;
   this->IsBlockSoFar = false;
+  for (Work* work : works)
+  {
+    work->block.state->problems = nullptr;
+  }
   try
   {
     if (!first.error.empty())
@@ -154,6 +159,10 @@ void vtkQuadrilleAlgorithm::RunTogether(
           "is made together with '" + first.block.name + "', which failed");
         work->block.state->report.mayPass = report.mayPass;
       }
+    }
+    for (Work* work : works)
+    {
+      this->ShowFailure(work->block);
     }
   }
 }
@@ -263,6 +272,17 @@ void vtkQuadrilleAlgorithm::FailBlock(
   {
     state.report.outcomeText +=
       hasResult ? "; the previous result is kept" : "; there is no result";
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ShowFailure(quadrille::Block& block)
+{
+  quadrille::BlockReport& report = block.state->report;
+  if (report.outcome != Aborted)
+  {
+    block.state->problems = this->MakeProblems(block);
+    report.showsFailure = block.state->problems != nullptr && !report.mayPass;
   }
 }
 

@@ -93,6 +93,10 @@ ExitCode RemeshRun::execute(vtkPolyData* input)
   switch (filter_->GetOutcome())
   {
     case vtkQuadrilleAlgorithm::Succeeded:
+      if (filter_->GetComponentsWithoutQuads() > 0)
+      {
+        return kPartialQuads;
+      }
       return filter_->GetOutput()->GetNumberOfPolys() > 0 ||
           (filter_->GetMethod() == vtkQuadRemesh::METHOD_SEAMLESS &&
             filter_->GetMappedSurface()->GetNumberOfPolys() > 0)

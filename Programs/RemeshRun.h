@@ -24,13 +24,14 @@ enum ExitCode
   kValidQuads = 0,
   kBadInput = 2,
   kNoValidResult = 3,
-  kStoppedQuads = 4 ///< stopped, with the best valid quads so far
+  kStoppedQuads = 4, ///< stopped, with the best valid quads so far
+  kPartialQuads = 5  ///< valid quads of some connected components: others have no map
 };
 
 /// Whether there are quads to be written.
 inline bool hasQuads(ExitCode code)
 {
-  return code == kValidQuads || code == kStoppedQuads;
+  return code == kValidQuads || code == kStoppedQuads || code == kPartialQuads;
 }
 
 struct StageRow

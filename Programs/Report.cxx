@@ -359,6 +359,7 @@ std::string makeReport(const RunFiles& files, RemeshRun& run, const ElementRun& 
   json["input_cells"] = input->GetNumberOfCells();
   json["seconds_total"] = number(times.total);
   json["handles"] = filter->GetHandles();
+  json["components_without_quads"] = filter->GetComponentsWithoutQuads();
   json["unresolved_handles"] = filter->GetUnresolvedHandles();
   json["shortest_loop_over_edge_length"] = number(filter->GetShortestLoopOverEdgeLength());
   json["shortest_boundary_over_edge_length"] = number(filter->GetShortestBoundaryOverEdgeLength());

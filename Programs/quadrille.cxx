@@ -49,7 +49,8 @@ Remeshes a triangle surface, or the faces of a CAD file, with quads only.
 constexpr const char* kClosing =
   R"(exit code: 0 valid quads (seamless: a valid map); 2 bad input or arguments;
            3 no valid result, or elements that fail --require;
-           4 stopped, by a signal or the time limit: the valid quads of the best attempt so far)";
+           4 stopped, by a signal or the time limit: the valid quads of the best attempt so far;
+           5 valid quads of some connected components, as others have no map (--failed-components))";
 
 volatile std::sig_atomic_t stopRequested = 0;
 
@@ -328,6 +329,11 @@ void addShape(CommandOptions& options, vtkQuadRemesh* filter)
     "what becomes of connected components with less area than the smallest block of quads has: "
     "keep (default), as about "
     "that many quads, or remove");
+  options.addChoice(
+    "failed-components", "WORD", { "leave-out", "fail" },
+    [filter](int word) { filter->SetFailedComponents(word); },
+    "what becomes of connected components that have no map: leave-out (default), the others have "
+    "quads, and the exit code is 5, or fail, nothing is written");
   options.addText(
     "symmetry", "PLANE", [filter](const std::string& text) { setSymmetry(filter, text); },
     "quads that are their own mirror image: found, about the plane about which the surface is "
@@ -663,6 +669,10 @@ ExitCode execute(RemeshRun& run, Request& request)
     if (!request.quiet)
     {
       printSummary(run, files, times.total);
+    }
+    else if (code == kPartialQuads)
+    {
+      std::fprintf(stderr, "quadrille: %s: %s\n", files.input.c_str(), run.filter()->GetVerdict());
     }
   }
   else

@@ -5,6 +5,7 @@
 #include "QuadrilleHelp.h"
 
 #include "vtkClientServerStream.h"
+#include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVXMLElement.h"
@@ -54,6 +55,45 @@ void applyDisplayHints(vtkPVXMLElement* hints, int port, vtkSMProxy* representat
     {
       vtkSMPropertyHelper(representation, name).Set(value);
     }
+  }
+}
+
+void makeOnDemand(vtkPVXMLElement* hints, int port, vtkSMProxy* filter)
+{
+  for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* hint = hints->GetNestedElement(i);
+    int wanted = -1;
+    const char* name = hint->GetAttribute("property");
+    if (std::strcmp(hint->GetName(), "OnDemand") == 0 && name && filter->GetProperty(name) &&
+      hint->GetScalarAttribute("port", &wanted) && wanted == port)
+    {
+      vtkSMPropertyHelper(filter, name).Set(1);
+      filter->UpdateProperty(name);
+    }
+  }
+}
+
+/// Before there is an array: ParaView chooses colours when a representation is made, and not again.
+void applyColourHints(
+  vtkPVXMLElement* hints, int port, vtkSMProxy* representation, vtkSMSessionProxyManager* manager)
+{
+  for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* hint = hints->GetNestedElement(i);
+    int wanted = -1;
+    const char* array = hint->GetAttribute("cells");
+    if (std::strcmp(hint->GetName(), "Colour") != 0 || !array ||
+      !hint->GetScalarAttribute("port", &wanted) || wanted != port ||
+      !representation->GetProperty("ColorArrayName") || !representation->GetProperty("LookupTable"))
+    {
+      continue;
+    }
+    vtkSMPropertyHelper(representation, "ColorArrayName")
+      .SetInputArrayToProcess(vtkDataObject::CELL, array);
+    const std::string table = std::string(array) + ".PVLookupTable";
+    vtkSMPropertyHelper(representation, "LookupTable")
+      .Set(manager->GetProxy("lookup_tables", table.c_str()));
   }
 }
 
@@ -212,12 +252,17 @@ void vtkSMQuadrilleSourceProxy::MarkDirty(vtkSMProxy* modifiedProxy)
 void vtkSMQuadrilleSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* consumer)
 {
   this->Superclass::AddConsumer(property, consumer);
+  const int port = connectedPort(property, this);
+  if (port >= 0)
+  {
+    makeOnDemand(this->GetHints(), port, this);
+  }
   if (isRepresentation(consumer))
   {
-    const int port = connectedPort(property, this);
     makeColourMaps(this->GetHints(), this->GetSessionProxyManager());
     letPicksThrough(port, consumer);
     applyDisplayHints(this->GetHints(), port, consumer);
+    applyColourHints(this->GetHints(), port, consumer, this->GetSessionProxyManager());
   }
 }
 

@@ -15,6 +15,12 @@
  * the moment it is made; there is one element for each property, with one number. What a user, a script or a state file
  * sets later stays.
  *
+ * A hint `<Colour port="8" cells="Problem"/>` has the representations of an output coloured by an array of its cells,
+ * also while it has none.
+ *
+ * A hint `<OnDemand port="1" property="ComputeMappedSurface"/>` switches the property on when something takes the
+ * output as its input: ParaView gathers information of all outputs, looked at or not, so what costs is not made before.
+ *
  * Outputs other than the first come with *Pickable* off: balls of irregular vertices, lines and the like do not stand
  * in the way of picks and selections, which go through to the quads. ParaView 5.11 and 5.13 take the id of what they
  * pick for one of the first output, so that a pick of any other gives another place.

@@ -29,6 +29,8 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
     "those that much larger quads could not follow are given up, then all", "2" },
   { "pipeline", "no borders", "borders of patches are given up but for long ones, then all", "2" },
   { "pipeline", "fewer details", "details that had been left are cut, and all begins again", "1" },
+  { "pipeline", "fewer components",
+    "connected components without a map are left out, and all begins again", "2" },
   { "pipeline", "borders yield", "all begins again, with borders of patches that give way", "1" },
   { "pipeline", "without its guides", "the map is carried without the guides of the finer level",
     "1" },

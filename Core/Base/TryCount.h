@@ -26,6 +26,7 @@ enum class Try : std::uint8_t
   CoarserFeatures,
   NoBorders,
   FewerDetails,
+  FewerComponents,
   BordersYield,
   WithoutGuides,
   LargerPull,

@@ -115,7 +115,9 @@ void judgeTurns(const Mesh& mesh, const FieldTopology& topology,
     if (field.failedAt.empty())
     {
       field.status.code = StatusCode::Infeasible;
-      field.status.message = "cross field: the vertex near " +
+      field.status.message =
+        "ask for smaller quads, a larger feature angle or more coarse vertices: no cross field, as "
+        "the vertex near " +
         placeText(mesh.position[topology.fans[i].vertex]) + " would have " + problem +
         (topology.fans[i].sector ? " between two features or on the boundary" : "");
     }
@@ -125,11 +127,6 @@ void judgeTurns(const Mesh& mesh, const FieldTopology& topology,
   {
     field.status.message +=
       " (and " + std::to_string(field.failedAt.size() - 1) + " more such places)";
-  }
-  if (!field.failedAt.empty())
-  {
-    field.status.message += "; ask for more coarse vertices, for smaller quads, or for fewer "
-                            "features there (a larger feature angle, or none)";
   }
 }
 
@@ -307,8 +304,8 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
     if (!repair.complete && !prescription.turns.empty())
     {
       solution.status = { StatusCode::NotConverged,
-        "target valences: the irregular vertices asked for are too many at one place for the "
-        "coarse level; ask for them farther apart, or for more coarse vertices" };
+        "ask for valences farther apart, or for more coarse vertices: the irregular vertices asked "
+        "for are too many at one place for the coarse level" };
     }
     applyShift(topology, repair.shift, solution.jump);
     solution.turns = repair.turns;

@@ -104,15 +104,17 @@ std::string textOfMissing(const Mesh& mesh, const SetSums& sum, long missing, bo
   std::ostringstream text;
   if (holdsFeatures)
   {
-    text << "irregular vertices cannot pass features and boundaries: on the part of the surface "
+    text << "choose places on one side of features and boundaries: irregular vertices cannot pass "
+            "features and boundaries: on the part of the surface "
          << "near " << placeText(mesh.position[sum.vertex]) << " that they bound, the sum of "
-         << "4 - valence would change by " << std::abs(missing)
-         << "; choose places on one side of them";
+         << "4 - valence would change by " << std::abs(missing);
     return text.str();
   }
-  text << "target valences: on the component near " << placeText(mesh.position[sum.vertex])
-       << ", 4 - valence has to sum up to " << sum.regular - sum.turns
-       << " over all irregular vertices; the " << sum.requests
+  text << "leave more points free (TargetValence 0), or change the targets by the sum that is "
+          "missing: on the "
+          "component near "
+       << placeText(mesh.position[sum.vertex]) << ", 4 - valence has to sum up to "
+       << sum.regular - sum.turns << " over all irregular vertices; the " << sum.requests
        << " vertices with a target sum up to " << sum.askedRegular - sum.asked << ", and ";
   if (sum.freeFans == 0)
   {
@@ -123,7 +125,6 @@ std::string textOfMissing(const Mesh& mesh, const SetSums& sum, long missing, bo
     text << "the " << sum.freeFans << " free ones cannot take all of the rest: " << missing
          << " are missing";
   }
-  text << "; leave more points free (TargetValence 0) there, or change the targets by this sum";
   return text.str();
 }
 

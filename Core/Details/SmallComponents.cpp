@@ -101,18 +101,15 @@ SmallComponents findSmallComponents(
   return small;
 }
 
-std::size_t removeSmallComponents(PreparedSurface& surface, const SmallComponents& small)
+void removeComponents(
+  PreparedSurface& surface, const std::vector<std::uint8_t>& isRemoved, std::size_t count)
 {
-  if (small.count == 0 || small.count == small.components)
-  {
-    return 0;
-  }
   const Mesh& mesh = surface.mesh;
   std::vector<std::uint8_t> goes(mesh.vertexCount(), 0);
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
     pollNowAndThen(f);
-    if (small.isSmall[f] == 0)
+    if (isRemoved[f] == 0)
     {
       continue;
     }
@@ -129,14 +126,23 @@ std::size_t removeSmallComponents(PreparedSurface& surface, const SmallComponent
   requests.erase(lost, requests.end());
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
-    if (small.isSmall[f] != 0)
+    if (isRemoved[f] != 0)
     {
       removeFace(surface, f);
     }
   }
   orderSurface(surface, 1);
-  surface.components -= static_cast<Index>(small.count);
+  surface.components -= static_cast<Index>(count);
   surface.hash = contentHash(mesh, 1);
+}
+
+std::size_t removeSmallComponents(PreparedSurface& surface, const SmallComponents& small)
+{
+  if (small.count == 0 || small.count == small.components)
+  {
+    return 0;
+  }
+  removeComponents(surface, small.isSmall, small.count);
   return small.count;
 }
 

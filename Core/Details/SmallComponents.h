@@ -42,8 +42,13 @@ struct SmallComponents
 SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeLength,
   double mostQuads = std::numeric_limits<double>::infinity(), int threads = 1);
 
-/// Removes the small components; at least one component stays, so where all are small all stay. Area, components and
-/// hash follow, and requests at their vertices go. Returns how many went.
+/// Removes the faces that are marked (#F), which are so many whole components and not all. Area, components and hash
+/// follow, and requests at their vertices go.
+void removeComponents(
+  PreparedSurface& surface, const std::vector<std::uint8_t>& isRemoved, std::size_t count);
+
+/// Removes the small components; at least one component stays, so where all are small all stay. Returns how many
+/// went.
 std::size_t removeSmallComponents(PreparedSurface& surface, const SmallComponents& small);
 
 } // namespace quadrille

@@ -47,8 +47,9 @@ Status checkSize(const MapCheck& check, const Mesh& mesh, const ExtractionOption
   std::ostringstream text;
   if (check.area > limit)
   {
-    text << "the map holds about " << std::llround(check.area) << " quads, more than the limit of "
-         << static_cast<std::size_t>(limit) << "; ask for larger quads or raise the limit";
+    text << "ask for larger quads, or raise the limit: the map holds about "
+         << std::llround(check.area) << " quads, more than the limit of "
+         << static_cast<std::size_t>(limit);
   }
   else if (check.extent > 64 * (limit + mesh.faceCount()))
   {
@@ -266,8 +267,9 @@ Status checkForPolygons(const MapCheck& check)
     return {};
   }
   return { StatusCode::NotConverged,
-    "cells at a free boundary can only be kept as polygons where the map is valid, and it has " +
-      check.text() + "; trim them instead" };
+    "trim the cells at the free boundary: they can only be kept as polygons where the map is "
+    "valid, and it has " +
+      check.text() };
 }
 
 } // namespace

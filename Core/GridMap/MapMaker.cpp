@@ -41,6 +41,9 @@ constexpr double kLeastBesideBlocks = 0.5;
 /// A map with a component missing is none. That many failures in one stage have a common cause, which more work in
 /// later stages does not mend: the caller hears of them at once.
 constexpr std::size_t kHopeless = 4;
+/// What users can do where there is no map; messages begin with it, as windows cut what is long.
+constexpr const char* kMapRemedy =
+  "ask for smaller quads, a larger feature angle or more coarse vertices";
 
 /// Area of the map in quads.
 double mapArea(const Mesh& mesh, const std::vector<FixedVec2>& uv)
@@ -68,6 +71,7 @@ struct Component
   double share = 1;                             ///< of the area of the surface over its sizes
   double block = 0;                             ///< quads that it has at least, see quadsOfBlock
   bool hasIntegers = false;                     ///< of an earlier scale
+  bool isTriedOnce = false;                     ///< as others had failed before
   Eigen::VectorXd solution;                     ///< of its seamless map, for the next scale
   std::vector<FixedVec2> seamlessUv, integerUv; ///< of the scale that is tried
   std::unique_ptr<RoundedMap> rounded;          ///< of the methods that round
@@ -151,21 +155,20 @@ double ratioToTarget(const std::vector<Component>& components, double wanted, do
   return quads / shares / target;
 }
 
-/// Where and why a component has no map, and what helps: the stages count, as numbers of the coarse mesh say nothing
+/// What helps, and where and why a component has no map: the stages count, as numbers of the coarse mesh say nothing
 /// to users.
 std::string explain(const std::vector<Component>& components, std::size_t i, std::size_t failures)
 {
   const Component& component = components[i];
   const Index v = component.failedAt.empty() ? 0 : component.failedAt.front();
   std::ostringstream text;
+  text << kMapRemedy << ": no valid map of the coarse level ";
   if (components.size() > 1)
   {
-    text << "at least " << failures << " of " << components.size()
+    text << "as at least " << failures << " of " << components.size()
          << " connected components have no map, one of them ";
   }
-  text << "near " << placeText(component.part.mesh.position[v]) << ": " << component.status.message
-       << "; ask for smaller quads, for fewer features there (a larger "
-       << "feature angle, or none) or for more coarse vertices";
+  text << "near " << placeText(component.part.mesh.position[v]) << ": " << component.status.message;
   return text.str();
 }
 
@@ -500,6 +503,7 @@ private:
       component.integersReused = false;
       component.uv = std::move(quantized.uv);
     }
+    component.isTriedOnce = failures() > 0;
     component.fail(embedded.status, std::move(embedded.uv),
       join(cornerVertices(part.mesh, embedded.inverted), embedded.failedAt));
   }
@@ -532,7 +536,16 @@ private:
       {
         result_.failedAt.push_back(component.part.vertex[v]);
       }
-      if (!component.status.ok() && result_.failedComponents++ == 0)
+      if (component.status.ok())
+      {
+        continue;
+      }
+      if (!component.isTriedOnce)
+      {
+        result_.failedIn.push_back(
+          component.part.vertex[component.failedAt.empty() ? 0 : component.failedAt.front()]);
+      }
+      if (result_.failedComponents++ == 0)
       {
         result_.status = { component.status.code, explain(components_, i, failures()) };
       }
@@ -543,7 +556,8 @@ private:
     if (result_.status.ok() && !hasPromised(result_.certificate, options_.method))
     {
       result_.status = { StatusCode::NotConverged,
-        "the coarse map does not pass its certificate: " + result_.certificate.text() };
+        std::string(kMapRemedy) + ": the map of the coarse level does not pass its certificate: " +
+          result_.certificate.text() };
       result_.failedAt = cornerVertices(mesh_, result_.certificate.worstFaces);
     }
     field_.judgeLines();

@@ -138,10 +138,11 @@ void recordCoarse(
     (map.status.code == StatusCode::Infeasible && map.failedAt.empty());
   if (!map.status.ok())
   {
-    made.status = { map.status.code, "no valid map of the coarse mesh: " + map.status.message };
+    made.status = map.status;
     made.collapsed = map.collapsedFaces > 0;
     made.failedPlaces = positionsOf(levels.coarse.mesh, map.failedAt);
     made.failedAt = onFinest(map.failedAt, levels.coarse);
+    made.failedIn = onFinest(map.failedIn.empty() ? map.failedAt : map.failedIn, levels.coarse);
   }
 }
 
@@ -220,9 +221,8 @@ void interrupt(const Hierarchy& levels, std::size_t allowance, MapAttempt& made)
   made.work = allowance;
   made.coarse = levels.coarse;
   made.status = { StatusCode::NotConverged,
-    "the map of the coarse mesh was not done within the work that a surface of this size is "
-    "worth; ask for smaller quads, for fewer features (a larger feature angle, or none) or for "
-    "fewer coarse vertices" };
+    "ask for smaller quads, a larger feature angle or fewer coarse vertices: the map of the "
+    "coarse level was not done within the work that a surface of this size is worth" };
 }
 
 } // namespace

@@ -78,8 +78,9 @@ struct MapAttempt
   std::vector<std::uint8_t> coarseInteger; ///< #V of coarse.mesh, see integerVertices
   std::vector<Index> failedAt;             ///< vertices of the surface, where the status is not ok
   std::vector<Vector3> failedPlaces;       ///< their positions
-  std::size_t work = 0;                    ///< see Base/WorkCount.h; of the map of the coarse level
-  bool isInterrupted = false;              ///< as the work was spent
+  std::vector<Index> failedIn;       ///< a vertex of each component of the surface that has no map
+  std::size_t work = 0;              ///< see Base/WorkCount.h; of the map of the coarse level
+  bool isInterrupted = false;        ///< as the work was spent
   std::vector<Index> curvesFailedAt; ///< GridMapResult::curvesFailedAt, as vertices of the surface
 
   bool isCarried = false;                  ///< to the surface
@@ -104,6 +105,7 @@ struct QuadAttempt
   /// Where the map was solved again.
   std::optional<PackedMap> uv;
   std::optional<Certificate> certificate;
+  std::vector<Index> failedAt; ///< vertices of the surface, where the quads are no surface
   std::size_t invertedQuads = 0;
   bool invertedAtFolds = false; ///< some of them where the map has folds
 

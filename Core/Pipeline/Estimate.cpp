@@ -90,10 +90,10 @@ Status memoryStatus(
     return {};
   }
   return { StatusCode::TooLarge,
-    "about " + bytesText(estimate.bytes) + " of memory would be needed for " +
-      std::to_string(triangles) + " triangles, but " + bytesText(limit) +
-      (options.memoryLimit ? " are allowed" : " are free") +
-      "; free memory, raise the memory limit, or decimate the surface first" };
+    "free memory, raise the memory limit, or decimate the surface first: about " +
+      bytesText(estimate.bytes) + " of memory would be needed for " + std::to_string(triangles) +
+      " triangles, but " + bytesText(limit) +
+      (options.memoryLimit ? " are allowed" : " are free") };
 }
 
 std::string bytesText(double bytes)

@@ -189,6 +189,10 @@ namespace
 void leaveMeasures(RemeshResult& result, const Frame& frame)
 {
   result.targetEdgeLength *= frame.unit;
+  for (Vector3& place : result.failed.places)
+  {
+    place = frame.toUser(place);
+  }
   SmallParts& parts = result.smallParts;
   parts.shortestLoop *= frame.unit;
   parts.place = frame.toUser(parts.place);

@@ -64,6 +64,9 @@ struct RemeshOptions
   /// Connected components with less area than the smallest block of quads has (six for a closed one without handles,
   /// see quadsOfBlock) go, unless all are such. Off: each becomes about that many quads. Both are told.
   bool removeSmallComponents = false;
+  /// Connected components that have no map are left out where others have quads, see RemeshResult::failed. Off: the run
+  /// has no quads then.
+  bool leavesOutFailed = false;
   /// The ratio of the two stretches of a triangle of the coarse level from which on it is brought down where integers
   /// and irregular vertices let it, see GridMapOptions; >= 1, or 0: no limit. By the scale aware and the seamless
   /// method only; final quality does not know it.

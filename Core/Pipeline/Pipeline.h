@@ -8,6 +8,7 @@
 #include "Features/GivenUpFeatures.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Estimate.h"
+#include "Pipeline/FailedParts.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/ResultStore.h"
 #include "Pipeline/RunMap.h"
@@ -31,6 +32,7 @@ struct RemeshResult
   , RunQuads
 {
   Status status;
+  FailedParts failed; ///< what has no quads
   /// Where the callback asked to stop and there were quads by then, which are the result with status ok: what was still
   /// being tried. Another run may end with others, so who remembers results must not take it for the final one.
   std::string stopped;

@@ -124,12 +124,11 @@ std::string certificateText(const Certificate& certificate)
 Status failureOf(const Status& extraction, MapMethod method, const Certificate& certificate)
 {
   return { extraction.code,
-    (isRounded(method) ? std::string("no valid quad mesh from the map by '") + nameOf(method) +
-          "', which may have folds (the scale aware method has none): "
-                       : std::string("no valid quad mesh: ")) +
-      extraction.message + certificateText(certificate) +
-      "; ask for more quads, raise the number of coarse vertices (Coarse Vertices, "
-      "--coarse-vertices), or raise the feature angle where noise is taken for features" };
+    "ask for more quads, more coarse vertices, or a larger feature angle: " +
+      (isRounded(method) ? std::string("no valid quad mesh from the map by '") + nameOf(method) +
+            "', which may have folds (the scale aware method has none): "
+                         : std::string("no valid quad mesh: ")) +
+      extraction.message + certificateText(certificate) };
 }
 
 void countInverted(const RunContext& run, const MapAttempt& map, QuadAttempt& made)
@@ -146,6 +145,31 @@ void countInverted(const RunContext& run, const MapAttempt& map, QuadAttempt& ma
     });
 }
 
+/// Vertices of the mesh under the points where more than two quads have an edge, or a quad has a point twice.
+std::vector<Index> placesWithoutSurface(const Mesh& mesh, const QuadMesh& quads)
+{
+  std::vector<std::pair<Index, Index>> edges;
+  for (const std::array<Index, 4>& quad : quads.quads)
+  {
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      edges.emplace_back(std::minmax(quad[i], quad[(i + 1) % 4]));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<Index> vertices;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    const auto& [a, b] = edges[i];
+    if (a == b || (i + 2 < edges.size() && edges[i] == edges[i + 2]))
+    {
+      vertices.push_back(mesh.origin[3 * quads.sourceFace[a]]);
+    }
+  }
+  sortUnique(vertices);
+  return vertices;
+}
+
 /// certificate: of the map that the quads are made of. Returns how many quads there are, also where they are not valid.
 std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<FixedVec2>& uv,
   ExtractionOptions options, const Certificate& certificate, QuadAttempt& made)
@@ -156,6 +180,7 @@ std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<F
   if (!extracted.status.ok())
   {
     made.status = failureOf(extracted.status, run.options.method, certificate);
+    made.failedAt = placesWithoutSurface(mesh, extracted.mesh);
     return extracted.mesh.quads.size();
   }
   made.extraction = extracted;

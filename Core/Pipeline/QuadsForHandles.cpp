@@ -65,11 +65,11 @@ Status judgeHandles(const SizedSurface& sized, bool isCut, int threads, ResultSt
     return {};
   }
   std::ostringstream text;
-  text << "the handles and boundary loops of the component near " << placeText(found->place)
-       << " need at least about " << std::llround(found->block)
+  text << "ask for more quads, or simplify or wrap the surface (Surface Wrap): the handles and "
+          "boundary loops of the component near "
+       << placeText(found->place) << " need at least about " << std::llround(found->block)
        << " quads, but its area is that of " << std::llround(found->area / quad)
-       << " of this size: simplify or wrap the surface (Surface Wrap), ask for more quads, or have "
-          "it tried (Small Details Resolve, --small-details resolve)";
+       << " of this size (Small Details Resolve, --small-details resolve, has it tried)";
   return { StatusCode::Infeasible, text.str() };
 }
 

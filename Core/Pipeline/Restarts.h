@@ -3,6 +3,7 @@
 /// How attempts begin again where none has had quads.
 #pragma once
 
+#include "Pipeline/FailedParts.h"
 #include "Pipeline/History.h"
 #include "Pipeline/SettledSurface.h"
 
@@ -10,6 +11,9 @@
 
 namespace quadrille
 {
+
+/// How often components are left out.
+constexpr int kMostLeftOut = 2;
 
 struct Restart
 {
@@ -32,5 +36,12 @@ std::optional<Restart> withoutRest(Settled& settled, SizedSurface& sized,
 /// With borders of patches that give way, as many attempts as before; none where nothing yields.
 std::optional<Restart> withYieldingBorders(
   const Settled& settled, const SizedSurface& sized, const Plan& first, const History& before);
+
+/// Without the connected components that have failed in each attempt, or in the last one where none has in all: what is
+/// left begins as a surface of its own, with its share of the quads. failed: tells what was left out. None where nothing
+/// would be left, or where it is not known which component has failed.
+std::optional<Restart> withoutFailed(Settled& settled, SizedSurface& sized,
+  const RemeshOptions& options, ResultStore* store, Plan& first, const History& before,
+  FailedParts& failed);
 
 } // namespace quadrille

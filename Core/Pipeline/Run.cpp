@@ -145,6 +145,10 @@ History makeAttempts(Settled& settled, SizedSurface& sized, const RemeshOptions&
   {
     beginAgain(withYieldingBorders(settled, sized, first, history));
   }
+  for (int i = 0; i < kMostLeftOut && !history.hasResult(); ++i)
+  {
+    beginAgain(withoutFailed(settled, sized, options, store, first, history, result.failed));
+  }
   return history;
 }
 

@@ -124,10 +124,10 @@ RunFields stageFields(const std::vector<StageRecord>& stages)
       columnOf<std::size_t>(stages, [](const StageRecord& s) { return s.elementsOut; }) } };
 }
 
-RunFields certificateFields(const Certificate& c)
+RunFields certificateFields(const Certificate& c, bool isOfAll)
 {
   return { { "Certificate", Texts{ c.text() } },
-    { "CertificateValid", Counts{ c.valid() ? 1U : 0U } },
+    { "CertificateValid", Counts{ c.valid() && isOfAll ? 1U : 0U } },
     { "CertificateNames",
       Texts{ "triangles", "not_positive", "wrong_turns", "seam_residuals", "off_axes",
         "off_isolines", "off_integers", "fractional_transitions", "minimum_determinant", "area" } },
@@ -168,7 +168,7 @@ RunFields runFields(const RemeshResult& result)
 {
   RunFields fields = stageFields(result.stages);
   addAll(fields, { { "ReusedStages", result.reused } });
-  addAll(fields, certificateFields(result.certificate));
+  addAll(fields, certificateFields(result.certificate, result.failed.components == 0));
   addAll(fields, repairFields(result.surface.repair));
   addAll(fields, extractionFields(result.extraction));
   addAll(fields,
@@ -184,6 +184,10 @@ RunFields runFields(const RemeshResult& result)
   addAll(fields, smallPartFields(result.smallParts, result.targetEdgeLength));
   addAll(fields, attemptFields(result.attempts));
   addAll(fields, tryFields(result.tries));
+  if (result.failed.components > 0)
+  {
+    addAll(fields, { { "ComponentsWithoutQuads", Counts{ result.failed.components } } });
+  }
   if (!result.stopped.empty())
   {
     addAll(fields, { { "Stopped", Texts{ result.stopped } } });

@@ -24,8 +24,9 @@ using RunFields = std::vector<RunField>;
 
 /// StageNames, StageSeconds, StageElementsIn, StageElementsOut: one value a stage.
 RunFields stageFields(const std::vector<StageRecord>& stages);
-/// Certificate (text), CertificateValid (0 or 1), CertificateNames and CertificateValues.
-RunFields certificateFields(const Certificate& certificate);
+/// Certificate (text), CertificateValid (0 or 1), CertificateNames and CertificateValues. isOfAll: false where parts of
+/// the surface have no map, which is then no valid one.
+RunFields certificateFields(const Certificate& certificate, bool isOfAll = true);
 /// RepairNames and RepairCounts.
 RunFields repairFields(const RepairReport& repair);
 /// ExtractionNames and ExtractionCounts.

@@ -72,6 +72,27 @@ void addGivenUp(
   }
 }
 
+/// Where nothing has quads, components that were left out are nothing of their own.
+void noteFailed(const Attempt& attempt, const Mesh& mesh, RemeshResult& result)
+{
+  FailedParts& failed = result.failed;
+  if (result.status.ok())
+  {
+    if (failed.components > 0)
+    {
+      result.notices.insert(result.notices.begin(), failed.text());
+    }
+    return;
+  }
+  const std::vector<Index> vertices =
+    attempt.quads ? attempt.quads->failedAt : attempt.map->failedIn;
+  const std::vector<Vector3> places =
+    attempt.map->failedPlaces.empty() ? positionsOf(mesh, vertices) : attempt.map->failedPlaces;
+  failed.components = 0;
+  failed.polygons.clear();
+  failed.places.insert(failed.places.end(), places.begin(), places.end());
+}
+
 void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& result)
 {
   const std::string handles = unresolvedHandlesText(result.smallParts, size);
@@ -174,6 +195,7 @@ void takeAttempts(const History& history, RunContext& run, const Frame& frame,
   }
   takeAttempt(attempt, options, result);
   addGivenUp(attempt.plan, sized.surface->mesh, sized.edgeLength, result.givenUpFeatures);
+  noteFailed(attempt, sized.surface->mesh, result);
   tellEnd(history, result);
   tellAttempt(attempt,
     { sized.edgeLength, frame.unit, sized.targetQuads, options.maximumNumberOfQuads }, result);

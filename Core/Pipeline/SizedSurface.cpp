@@ -104,10 +104,9 @@ bool refuseTooMany(const RemeshOptions& options, SizedSurface& sized)
     return false;
   }
   sized.status = { StatusCode::TooLarge,
-    "about " + std::to_string(sized.targetQuads) + " quads would be made, more than the limit of " +
-      std::to_string(options.maximumNumberOfQuads) +
-      "; ask for fewer or longer quads, or raise the limit (Maximum Number Of Quads, "
-      "--maximum-quads)" };
+    "ask for fewer quads, or raise the limit (Maximum Number Of Quads, --maximum-quads): about " +
+      std::to_string(sized.targetQuads) + " quads would be made, more than the limit of " +
+      std::to_string(options.maximumNumberOfQuads) };
   return true;
 }
 

@@ -37,8 +37,8 @@ void requireFaces(const PreparedSurface& surface)
 {
   if (surface.mesh.origin.empty())
   {
-    throw InvalidInput("no face is left of the surface after repair (" + surface.repair.text() +
-      "): all polygons are degenerate.");
+    throw InvalidInput("give a surface whose polygons have area: no face is left after repair (" +
+      surface.repair.text() + "), as all polygons are degenerate.");
   }
 }
 

@@ -273,12 +273,12 @@ OrientedSets joinAcrossPlainEdges(const PreparedSurface& surface)
     if (g != kInvalidIndex && h < g &&
       !sets.join(Mesh::face(h), Mesh::face(g), mesh.origin[h] == mesh.origin[g]))
     {
-      throw InvalidInput("the surface is not orientable (like a Moebius strip): polygon " +
+      throw InvalidInput(
+        "cut the surface open, or remove the polygons that close its twisted loop: "
+        "it is not orientable (like a Moebius strip), as polygon " +
         std::to_string(surface.sourcePolygon[Mesh::face(h)]) + " near " +
         placeText(mesh.position[mesh.origin[h]]) +
-        " cannot agree with all its neighbours about which side is outside. Cut its component "
-        "open, "
-        "or remove the polygons that close the twisted loop.");
+        " cannot agree with all its neighbours about which side is outside.");
     }
   }
   return sets;

@@ -109,7 +109,7 @@ WrappedSurface wrapSurface(const Soup& soup, const WrapOptions& options)
   if (result.surface.corners.empty())
   {
     result.status = { StatusCode::Infeasible,
-      "the wrap is empty: give a smaller alpha, or a larger offset" };
+      "give a smaller alpha, or a larger offset: the wrap is empty" };
   }
   report(options.progress, 1, "Wrapping");
   return result;

@@ -29,12 +29,12 @@ void settingsFields(Fields& fields, Options& options)
   // By name, so that an option that is new has to be put on one side or the other here.
   auto& [quads, edgeLength, relativeEdgeLength, featureAngle, featureCriterion, shapeSizes,
     curvatureGuides, method, coarsestIntegers, coarseVertices, decimationCost, closeHandles,
-    smallDetails, removeSmallComponents, anisotropyLimit, finalQuality, distortionMetric,
-    maximumNumberOfQuads, preview, smoothingSteps, memoryLimit, keepsPositions, mergeCharts,
-    knownMap, threads, warmStart, progress] = options;
+    smallDetails, removeSmallComponents, leavesOutFailed, anisotropyLimit, finalQuality,
+    distortionMetric, maximumNumberOfQuads, preview, smoothingSteps, memoryLimit, keepsPositions,
+    mergeCharts, knownMap, threads, warmStart, progress] = options;
   const auto notThese = [](const auto&... /*values*/) {};
   notThese(quads, edgeLength, relativeEdgeLength);
-  notThese(decimationCost); // sessions have the default one
+  notThese(decimationCost, leavesOutFailed); // sessions have the default ones
   notThese(preview, memoryLimit, keepsPositions, mergeCharts, knownMap, threads, progress);
   fields.orNull("feature_angle", featureAngle);
   fields.mayName("feature_criterion", featureCriterion, kFeatureCriteria);

@@ -292,11 +292,11 @@ CopiedQuads copyQuads(
   {
     const std::string where = placeText(quads.points[crowded]);
     result.status = { StatusCode::NotConverged,
-      isometry.isReflection
-        ? "the half in front of the mirror plane is one quad wide from plane to plane near " +
-          where + ", so that with its image it would be two quads round: it needs more quads"
-        : "a wedge is one quad wide near " + where +
-          ", so that with its images it would be two quads round: it needs more quads" };
+      isometry.isReflection ? "ask for more quads: the half in front of the mirror plane is one "
+                              "quad wide from plane to plane near " +
+          where + ", so that with its image it would be two quads round"
+                            : "ask for more quads: a wedge is one quad wide near " + where +
+          ", so that with its images it would be two quads round" };
   }
   return result;
 }

@@ -48,7 +48,8 @@ Status checkStraight(
     if (ends[v] > 0 && turns[v] != ends[v])
     {
       return { StatusCode::NotConverged,
-        "the map of the half in front of the mirror plane has a corner in the plane, at " +
+        "choose an isoline for the plane's curve: the map of the half in front of the mirror plane "
+        "has a corner in the plane, at " +
           placeText(mesh.position[v]) + ", where a mid-line of quads has no point" };
     }
   }

@@ -41,9 +41,9 @@ public:
     {
       CopiedQuads result;
       result.status = { StatusCode::NotConverged,
-        "the half in front of the mirror plane is too narrow near " +
+        "ask for more quads: the half in front of the mirror plane is too narrow near " +
           placeText(given_.points[crowded_ != kInvalidIndex ? crowded_ : lost]) +
-          " for quads across the plane and their neighbours: it needs more quads" };
+          " for quads across the plane and their neighbours" };
       return result;
     }
     CopiedQuads result = copyQuads(inFront(), copied_, {}, mirror_);
@@ -260,9 +260,9 @@ private:
     if (crowded != kInvalidIndex)
     {
       result.status = { StatusCode::NotConverged,
-        "the half in front of the mirror plane is two quads wide from plane to plane near " +
-          placeText(quads.points[crowded]) +
-          ", so that the quads across it would be the same: it needs more quads" };
+        "ask for more quads: the half in front of the mirror plane is two quads wide from plane "
+        "to plane near " +
+          placeText(quads.points[crowded]) + ", so that the quads across it would be the same" };
     }
   }
 

@@ -160,11 +160,11 @@ WedgeSeams pairSeams(const QuadMesh& quads, const Mesh& mesh,
     {
       result.pairs.clear();
       result.status = { StatusCode::NotConverged,
-        "the two cuts of a wedge near " + placeText(requests[i].from) + " have " +
+        "ask for smaller quads, or choose the method scale aware: the two cuts of a wedge near " +
+          placeText(requests[i].from) + " have " +
           std::to_string(std::max<std::size_t>(left.size(), 1) - 1) + " and " +
           std::to_string(std::max<std::size_t>(right.size(), 1) - 1) +
-          " edges of quads, so that wedges do not fit together: choose the method scale aware, or "
-          "ask for smaller quads" };
+          " edges of quads, so that wedges do not fit together" };
       return result;
     }
     const std::vector<SamePoints> pairs = pairing.pair(left, right);

@@ -215,6 +215,8 @@ void BlockReport::pack(Packer& packer) const
   packer.text(outcomeText);
   packer.count(mayPass);
   packer.count(isSoFar);
+  packer.count(hasDefect);
+  packer.count(showsFailure);
   packer.text(result);
   packer.text(stageTimes);
   packer.text(certificate);
@@ -235,6 +237,8 @@ BlockReport BlockReport::unpack(Unpacker& unpacker)
   report.outcomeText = unpacker.text();
   report.mayPass = unpacker.count() != 0;
   report.isSoFar = unpacker.count() != 0;
+  report.hasDefect = unpacker.count() != 0;
+  report.showsFailure = unpacker.count() != 0;
   report.result = unpacker.text();
   report.stageTimes = unpacker.text();
   report.certificate = unpacker.text();

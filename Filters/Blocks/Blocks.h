@@ -35,9 +35,12 @@ struct BlockReport
   std::string outcomeText;
   bool isSoFar =
     false; ///< stopped with the best so far, which is the result; the next execution makes it anew
-  std::string result; ///< what was made, in a sentence
+  std::string result;      ///< what was made, in a sentence
+  bool hasDefect = false; ///< the sentence begins with what is wrong with it
   bool mayPass =
     false; ///< a failure that may pass by itself, as for lack of memory: the next execution tries again
+  bool showsFailure =
+    false; ///< the problem port has something of a failure that does not pass by itself
   std::string stageTimes;
   std::string certificate;
   std::vector<std::string> notices;
@@ -83,6 +86,8 @@ struct BlockState
   std::vector<std::pair<const void*, vtkMTimeType>> lastStamps;
   /// The same of its last execution where that failed and would fail again.
   std::vector<std::pair<const void*, vtkMTimeType>> failedStamps;
+  /// Of the last execution, where that failed: what the filter's problem port gives in place of the last result's.
+  vtkSmartPointer<vtkDataObject> problems;
   double lastAreaShare = 1;
   double lastWholeDiagonal = 0;
   /// Whether the result is spread: each rank has its own part of it, with so many rings of ghost cells.

@@ -231,6 +231,7 @@ def remesh(surface, options, lines, *, wrap, requests, spread, progress):
     from ._repair import Wrapping
 
     run = vtkQuadRemesh()
+    run.SetFailedComponents(vtkQuadRemesh.FAIL_WITH_FAILED_COMPONENTS)  # who calls a function wants all of the surface
     _set_all(run, options)
     ranks = _spread(run, wrap) if spread else None
     wrapping = Wrapping(wrap, surface, requests)

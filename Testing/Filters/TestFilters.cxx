@@ -18,12 +18,15 @@
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTrivialProducer.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 namespace quadrille
 {
@@ -362,6 +365,92 @@ TEST(QuadRemeshFailure, IsToldOnceForAllPorts)
   EXPECT_EQ(window->lines.size(), 2u);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_INFO);
   vtkOutputWindow::SetInstance(before);
+}
+
+/// A sphere and one all of whose edges were asked for, which too few quads cannot follow.
+vtkSmartPointer<vtkPolyData> sphereAndOneWithoutMap()
+{
+  const Mesh sphere = test::sphere(3);
+  const vtkSmartPointer<vtkPolyData> data =
+    test::toPolyData(test::disjointUnion(sphere, sphere, Vector3(3, 0, 0)));
+  vtkNew<vtkUnsignedCharArray> edges;
+  edges->SetName("FeatureEdges");
+  for (vtkIdType f = 0; f < data->GetNumberOfCells(); ++f)
+  {
+    edges->InsertNextValue(f < static_cast<vtkIdType>(sphere.faceCount()) ? 0 : 7);
+  }
+  data->GetCellData()->AddArray(edges);
+  return data;
+}
+
+std::map<int, vtkIdType> countProblems(vtkQuadRemesh* filter)
+{
+  std::map<int, vtkIdType> counts;
+  auto* data = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(8));
+  vtkDataArray* kinds = data->GetCellData()->GetArray("Problem");
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    ++counts[static_cast<int>(kinds->GetTuple1(i))];
+  }
+  EXPECT_EQ(data->GetNumberOfVerts(), counts[1] + counts[2]);
+  return counts;
+}
+
+TEST(QuadRemeshFailure, OneComponentDoesNotTakeTheOthersWithIt)
+{
+  const vtkSmartPointer<vtkPolyData> input = sphereAndOneWithoutMap();
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, input, 40);
+  expectValid(filter, 2, true);
+  EXPECT_EQ(messages.errors, "");
+  EXPECT_EQ(filter->GetComponentsWithoutQuads(), 1);
+  const std::string verdict = filter->GetVerdict();
+  EXPECT_EQ(verdict.find("1 of 2 connected components, with 50 % of the area, without quads: "), 0u)
+    << verdict;
+  EXPECT_EQ(std::string(filter->GetCertificateText()).find("1 of 2 connected components"), 0u);
+  EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("CertificateValid")->GetTuple1(0), 0);
+  std::map<int, vtkIdType> problems = countProblems(filter);
+  EXPECT_EQ(problems[0], input->GetNumberOfCells() / 2);
+  EXPECT_GT(problems[1], 0);
+
+  filter->SetFailedComponents(vtkQuadRemesh::FAIL_WITH_FAILED_COMPONENTS);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::NoValidResult);
+  EXPECT_NE(messages.errors, "");
+  // The quads from before stay; of the failure the places alone are shown beside them.
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0);
+  problems = countProblems(filter);
+  EXPECT_EQ(problems[0], 0);
+  EXPECT_GT(problems[1], 0);
+}
+
+TEST(QuadRemeshFailure, ShowsTheInputWhereNothingElseIs)
+{
+  const vtkSmartPointer<vtkPolyData> input = sphereAndOneWithoutMap();
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  filter->SetFailedComponents(vtkQuadRemesh::FAIL_WITH_FAILED_COMPONENTS);
+  run(filter, input, 40);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::NoValidResult);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(std::string(filter->GetVerdict()).find("Failed: ask for smaller quads"), 0u)
+    << filter->GetVerdict();
+  EXPECT_EQ(countProblems(filter)[0], input->GetNumberOfCells());
+  EXPECT_GT(countProblems(filter)[1], 0);
+  // So it is where a property is at fault; a success takes it away.
+  filter->SetTargetTypeToEdgeLength();
+  filter->SetEdgeLength(-1);
+  filter->Update();
+  EXPECT_EQ(countProblems(filter)[0], input->GetNumberOfCells());
+  EXPECT_EQ(countProblems(filter)[1], 0);
+  input->GetCellData()->RemoveArray("FeatureEdges");
+  filter->SetEdgeLength(0.3);
+  filter->Update();
+  expectValid(filter, 4, true);
+  EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(8))->GetNumberOfCells(), 0);
+  EXPECT_NE(std::string(filter->GetVerdict()).find(", all valid"), std::string::npos)
+    << filter->GetVerdict();
 }
 
 TEST(QuadRemeshFailure, EmptyInputIsAnErrorInASerialRun)

@@ -301,6 +301,37 @@ class Formats(Case):
 
 
 class ExitCodes(Case):
+    def write_two_parts(self):
+        """A torus, and one all of whose edges are borders of patches, which few quads cannot follow."""
+        path = self.folder / "parts.vtk"
+        points, faces = torus()
+        count = len(points)
+        both = points + [(x + 20, y, z) for x, y, z in points]
+        polygons = faces + [tuple(i + count for i in f) for f in faces]
+        bits = [0] * len(faces) + [7] * len(faces)
+        path.write_text("# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET POLYDATA\nPOINTS %d double\n" % len(both)
+                        + "".join("%.9g %.9g %.9g\n" % p for p in both)
+                        + "POLYGONS %d %d\n" % (len(polygons), 4 * len(polygons))
+                        + "".join("3 %d %d %d\n" % f for f in polygons)
+                        + "CELL_DATA %d\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n" % len(bits)
+                        + "\n".join(map(str, bits)) + "\n")
+        return path
+
+    def test_a_component_without_quads_has_an_exit_code_of_its_own(self):
+        source, out, report = self.write_two_parts(), self.folder / "q.obj", self.folder / "r.json"
+        told = self.run_quadrille(source, out, "--quads", 40, "--report", report, expect=5).stderr
+        self.assertIn("1 of 2 connected components", told)
+        said = json.loads(report.read_text())
+        self.assertEqual((said["exit_code"], said["components_without_quads"], said["certificate"]["valid"]),
+                         (5, 1, False))
+        self.assertEqual(said["quality"]["euler_characteristic"], 0)
+        self.assertIn("1 of 2 connected components",
+                      self.run_quadrille(source, out, "--quads", 40, "--quiet", expect=5).stderr)
+        told = self.run_quadrille(source, self.folder / "none.obj", "--quads", 40, "--failed-components", "fail",
+                                  expect=3).stderr
+        self.assertRegex(told, r"parts\.vtk: ask for smaller quads")
+        self.assertFalse((self.folder / "none.obj").exists())
+
     def test_help(self):
         self.assertIn("usage: quadrille", self.run_quadrille("--help").stdout)
 

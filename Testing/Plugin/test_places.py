@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where the gestures of the user guide put things, in ParaView's real window under openbox at its defaults.
 
-  test_places.py XVFB PARAVIEW PVPYTHON OPENBOX [--picks N] [--strokes N] [--traces N] [--seed N]
+  test_places.py XVFB PARAVIEW PVPYTHON PVBATCH OPENBOX [--picks N] [--strokes N] [--traces N] [--seed N]
+                 [--surface FILE]
 
 Opens a surface and makes quads by keyboard. A pick: a key over a ball of *Irregular Vertices*, with its eye on. A
 stroke: four random visible places, by the gesture of the guide. Where the points came to lie is compared with the ball,
 or with the place under the mouse, which rays from the camera tell: half an edge length of the quads is allowed. A
-trace: all from File > Open on is recorded, with one or two constraints, and run in pvpython: same bytes. All random
-places come from the seed. Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox and xdotool.
+trace: all from File > Open on is recorded, with one or two constraints, and run in pvpython and in pvbatch, and so is
+the state that is saved at last: same bytes. All random places come from the seed. Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox and xdotool.
 """
 import argparse
 import math
@@ -74,19 +75,20 @@ class Session(count_actions.Window):
     def middle(self):
         return self.origin[0] + 400, self.origin[1] - 300
 
-    def open(self):
-        """File > Open, Apply, Quad Remesh, Apply."""
+    def open(self, quads=None, more="pass", wait="output(0).GetNumberOfCells() > 0"):
+        """File > Open, Apply, Quad Remesh, Apply. more: done before; wait: what is true afterwards."""
         self.xdotool("mousemove", *self.middle(), "key", "ctrl+o", "sleep", 2)
         self.xdotool("type", "--delay", 20, str(self.surface))
         self.xdotool("sleep", 1, "key", "Return", "sleep", 1)
         self.wait_until("simple.GetActiveSource() is not None")
         self.apply()
         self.new("Quad Remesh")
+        self.ask((f"quads().NumberOfQuads = {quads}; " if quads else "") + more)
         self.apply()
-        self.wait_until("quads() is not None and output(0).GetNumberOfCells() > 0", seconds=120)
+        self.wait_until(f"quads() is not None and {wait}", seconds=120)
         time.sleep(1)
         self.find_origin()
-        self.edge = self.value("edge_length()")
+        self.edge = self.value("edge_length() if output(0).GetNumberOfCells() else None")
 
     def screen(self, pixel):
         """Of a pixel of the view, from the left and from the bottom."""
@@ -197,7 +199,7 @@ DRAWN = (("Quad Stroke",), ("Quad Valence",), ("Quad Move",), ("Quad Stroke", "Q
 
 
 def trace(folder, programs, number, chance):
-    """A session of its own, recorded: the file with the trace, and what the quads are."""
+    """A session of its own, recorded: the files with the trace and the state, and what the quads are."""
     place = folder / f"trace-{number}"
     place.mkdir()
     session = Session(place, programs)
@@ -213,6 +215,8 @@ def trace(folder, programs, number, chance):
         quads = session.value("bytes_of(quads())")
         path = place / "trace.py"
         path.write_text(session.value("smtrace.stop_trace()"), encoding="utf-8")
+        state = place / "state.pvsm"
+        session.ask(f"simple.SaveState({str(state)!r})")
         if quads == before:
             raise SystemExit("FAILED: the constraints changed nothing, so that the trace shows nothing")
         connected = session.value("len(quads().Constraints)")
@@ -224,14 +228,14 @@ def trace(folder, programs, number, chance):
     finally:
         environment = count_actions.environment_of(session)
         session.close()
-    return path, (*quads, connected), environment
+    return (path, state), (*quads, connected), environment
 
 
-def replay(path, programs, environment):
+def replay(path, program, programs, environment):
     server, display = private_display.start(programs.xvfb, "-screen", "0", "1280x1024x24")
     try:
         script = pathlib.Path(__file__).with_name("replay_trace.py")
-        done = subprocess.run([programs.pvpython, str(script), str(path)], env=dict(environment, DISPLAY=display),
+        done = subprocess.run([program, str(script), str(path)], env=dict(environment, DISPLAY=display),
                               capture_output=True, text=True, timeout=300)
     finally:
         private_display.stop(server)
@@ -239,19 +243,22 @@ def replay(path, programs, environment):
         if line.startswith("replayed"):
             digest, cells, connected = line.split()[2:]
             return digest, int(cells), int(connected)
-    raise SystemExit(f"FAILED: the trace does not run\n{path.read_text(encoding='utf-8')}\n{done.stdout}{done.stderr}")
+    raise SystemExit(f"FAILED: {program} does not run {path.name}\n{path.read_text(encoding='utf-8')}\n"
+                     f"{done.stdout}{done.stderr}")
 
 
 def traces(folder, programs, chance, count):
     """How many replays give other bytes."""
     bad = 0
     for number in range(count):
-        path, made, environment = trace(folder, programs, number, chance)
-        again = replay(path, programs, environment)
-        print(f"  made {made}, replayed {again}", flush=True)
-        if made != again:
-            print(path.read_text(encoding="utf-8"))
-            bad += 1
+        paths, made, environment = trace(folder, programs, number, chance)
+        for path in paths:
+            for program in (programs.pvpython, programs.pvbatch):
+                again = replay(path, program, programs, environment)
+                print(f"  made {made}, {path.name} in {pathlib.Path(program).name} {again}", flush=True)
+                if made != again:
+                    print(path.read_text(encoding="utf-8"))
+                    bad += 1
     return bad
 
 
@@ -265,11 +272,13 @@ def summary(what, off):
 
 def main():
     parser = argparse.ArgumentParser()
-    for program in ("xvfb", "paraview", "pvpython", "openbox"):
+    for program in ("xvfb", "paraview", "pvpython", "pvbatch", "openbox"):
         parser.add_argument(program)
     for what, count in (("picks", 20), ("strokes", 20), ("traces", 5), ("seed", 31)):
         parser.add_argument("--" + what, type=int, default=count)
+    parser.add_argument("--surface", default=SURFACE)
     options = parser.parse_args()
+    Session.surface = options.surface
     bad = 0
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)

@@ -22,7 +22,14 @@ check(cells > 0, "no quads")
 check(number(quads, "ActualQuads") == cells, "ActualQuads differs from the output")
 check("extract" in number(quads, "StageTimes"), "no stage times")
 check(number(quads, "Certificate") != "", "no certificate")
+# The mapped surface is made when something asks for it.
+made = quads.GetClientSideObject().GetOutputDataObject(1)
+check(made.GetNumberOfCells() == 0, "the mapped surface is made though nobody looks at it")
+looked = simple.ExtractSurface(Input=simple.OutputPort(quads, 1))
+looked.UpdatePipeline()
+check(quads.ComputeMappedSurface == 1, "the mapped surface is not asked for by who looks at it")
 check(size_of(quads, 1) == size_of(mesh), "the mapped surface has other faces than the surface")
+simple.Delete(looked)
 check(quads.PointData["Valence"] is not None, "no Valence")
 check("ActualQuads" in quads.FieldData.keys(), "no field data")
 
@@ -47,10 +54,10 @@ quads.FeatureAngle = 60
 quads.CoarseVertices = 500
 quads.NumberOfThreads = 1
 quads.TimeLimit = 250
-quads.ComputeMappedSurface = 0
 quads.MaximumNumberOfQuads = 100000
 quads.UpdatePipeline()
-check(size_of(quads) > 0 and size_of(quads, 1) == 0, "ComputeMappedSurface has no effect")
+quads.ComputeMappedSurface = 0
+quads.UpdatePipeline()
 check(quads.PatchArray == "(none)", "PatchArray should be (none) where there is no cell array")
 
 # The number of quads comes first: it is the default, and whole numbers that the window has a field for.
@@ -60,7 +67,7 @@ for name in ("NumberOfQuads", "MaximumNumberOfQuads", "ActualQuads"):
     kind = default.SMProxy.GetProperty(name).GetClassName()
     check(kind == "vtkSMIntVectorProperty", f"{name} is a {kind}, for which ParaView has no widget")
 order = [default.SMProxy.GetPropertyGroup(i).GetXMLLabel() for i in range(default.SMProxy.GetNumberOfPropertyGroups())]
-check(order[0] == "Size Of The Quads" and order[-1] == "Run", f"the panel's order is {order}")
+check(order[0] == "Quads" and order[-1] == "Run", f"the panel's order is {order}")
 walk = servermanager.vtkSMOrderedPropertyIterator()
 walk.SetProxy(default.SMProxy)
 names = []
@@ -68,8 +75,14 @@ walk.Begin()
 while not walk.IsAtEnd():
     names.append(walk.GetKey())
     walk.Next()
-check(names.index("NumberOfQuads") < names.index("FeatureAngle") < names.index("GuidingStrokes")
-      < names.index("ResultText") < names.index("NumberOfThreads"), f"the properties come as {names}")
+# Calm at first: the verdict, the number, features, small details, symmetry and the result.
+shown = {name for name in names if default.SMProxy.GetProperty(name).GetPanelVisibility() == "default"
+         and name != "Input"}
+known = {"Verdict", "TargetType", "NumberOfQuads", "EdgeLength", "RelativeEdgeLength", "DetectFeatures", "FeatureAngle",
+         "SmallDetails", "Symmetry", "PlaneCurve", "RotationOrder", "SymmetryOrigin", "SymmetryNormal", "ResultText"}
+check(shown == known, f"at first the panel has {shown - known} more, and not {known - shown}")
+check(names.index("Verdict") < names.index("NumberOfQuads") < names.index("FeatureAngle")
+      < names.index("GuidingStrokes") < names.index("ResultText") < names.index("NumberOfThreads"), f"the properties come as {names}")
 
 # The patch array is found by its name.
 marked = simple.Calculator(Input=mesh, AttributeType="Cell Data", ResultArrayName="PatchId", Function="1",

@@ -44,6 +44,7 @@ def look():
     patches = {patches.GetValue(i) for i in range(count)}
     check(text.count("\n*ELSET, ELSET=PATCH_") == len(patches) and "TYPE=S4," in text, "no sets by LayoutPatch")
     check(f"{count} elements" in text, "another number of elements")
+    check("TYPE=S4," in written("d.inp", quads, ElementType="Automatic").read_text(), "Automatic is not S4 for quads")
     text = written("a.inp", quads, ElementType="S4R", Dialect="Abaqus").read_text()
     check("TYPE=S4R," in text, "ElementType has no effect")
     check(written("a.msh", quads).read_text().splitlines()[1] == "4.1 0 8", "not version 4.1")

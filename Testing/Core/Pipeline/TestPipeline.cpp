@@ -585,6 +585,70 @@ TEST(Pipeline, FeaturesThatLeaveNoRoomAreGivenUpOnlyWhereNobodyAskedForThem)
 }
 #endif
 
+/// A sphere all of whose edges were asked for: 20 quads are far too few to follow them, and none may be given up.
+SurfaceInput sphereAndOneWithoutMap()
+{
+  const Mesh sphere = test::sphere(3);
+  SurfaceInput input = test::toInput(test::disjointUnion(sphere, sphere, Vector3(3, 0, 0)));
+  input.featureEdges.assign(2 * sphere.faceCount(), 0);
+  std::fill_n(
+    input.featureEdges.begin() + sphere.faceCount(), sphere.faceCount(), std::uint8_t{ 7 });
+  return input;
+}
+
+TEST(Pipeline, ComponentsWithoutAMapAreLeftOutOnRequest)
+{
+  const SurfaceInput input = sphereAndOneWithoutMap();
+  RemeshOptions options;
+  options.quads = 40;
+  const RemeshResult none = remesh(input, options);
+  EXPECT_FALSE(none.status.ok());
+  EXPECT_TRUE(none.quads.quads.empty());
+  EXPECT_EQ(none.failed.components, 0u);
+  // The remedy comes first: windows cut what is long.
+  EXPECT_LT(none.status.message.find("ask for smaller quads"), 80u) << none.status.message;
+
+  options.leavesOutFailed = true;
+  const RemeshResult some = remesh(input, options);
+  ASSERT_TRUE(some.status.ok()) << some.status.message;
+  EXPECT_TRUE(some.certificate.valid()) << some.certificate.text();
+  EXPECT_EQ(topologyOf(some.quads).euler, 2);
+  EXPECT_NEAR(static_cast<double>(some.quads.quads.size()), 20, 6); // its share
+  for (const Vector3& p : some.quads.points)
+  {
+    EXPECT_LT(p.x(), 1.5);
+  }
+  EXPECT_EQ(some.failed.components, 1u);
+  EXPECT_EQ(some.failed.ofComponents, 2u);
+  EXPECT_NEAR(some.failed.share, 0.5, 0.01);
+  EXPECT_EQ(some.failed.polygons.size(), input.polygonOffsets.size() / 2);
+  ASSERT_FALSE(some.failed.places.empty());
+  for (const Vector3& p : some.failed.places)
+  {
+    EXPECT_NEAR((p - Vector3(3, 0, 0)).norm(), 1, 0.1) << p.transpose();
+  }
+  EXPECT_NE(some.notices.front().find("1 of 2 connected components"), std::string::npos)
+    << some.notices.front();
+}
+
+TEST(Pipeline, ASurfaceWithoutAMapTellsThePlaces)
+{
+  SurfaceInput input = test::toInput(test::sphere(3));
+  input.featureEdges.assign(input.polygonOffsets.size() - 1, 7);
+  RemeshOptions options;
+  options.quads = 20;
+  options.leavesOutFailed = true; // there is no other one
+  const RemeshResult result = remesh(input, options);
+  EXPECT_FALSE(result.status.ok());
+  EXPECT_EQ(result.failed.components, 0u);
+  EXPECT_TRUE(result.failed.polygons.empty());
+  ASSERT_FALSE(result.failed.places.empty());
+  for (const Vector3& p : result.failed.places)
+  {
+    EXPECT_NEAR(p.norm(), 1, 0.1) << p.transpose();
+  }
+}
+
 TEST(Pipeline, SeveralComponents)
 {
   remeshAndCheck(test::twoComponents(), 600);

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Runs/Problems.h"
+
+#include "Common/NewArray.h"
+#include "Common/Report.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkIdList.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+namespace quadrille
+{
+namespace
+{
+
+enum Problem
+{
+  kWithoutQuads,
+  kFailsHere,
+  kInverted
+};
+
+/// Its polygons and strips, or those of them that are named.
+void addSurface(const Problems& problems, vtkPolyData* data)
+{
+  if (problems.isWhole)
+  {
+    data->SetPolys(problems.surface->GetPolys());
+    data->SetStrips(problems.surface->GetStrips());
+    return;
+  }
+  vtkNew<vtkCellArray> polygons, strips;
+  vtkNew<vtkIdList> corners;
+  for (const vtkIdType cell : problems.cells)
+  {
+    problems.surface->GetCellPoints(cell, corners);
+    const bool isStrip = problems.surface->GetCellType(cell) == VTK_TRIANGLE_STRIP;
+    (isStrip ? strips : polygons)->InsertNextCell(corners);
+  }
+  data->SetPolys(polygons);
+  data->SetStrips(strips);
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPolyData> writeProblems(const Problems& problems)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  if (problems.failed.empty() && problems.inverted.empty() && !problems.surface)
+  {
+    return data;
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  if (problems.surface && problems.surface->GetPoints())
+  {
+    points->DeepCopy(problems.surface->GetPoints());
+    addSurface(problems, data);
+  }
+  auto kind = newArray<vtkIntArray>("Problem");
+  vtkNew<vtkCellArray> vertices;
+  const auto mark = [&](const std::vector<Vector3>& places, Problem problem)
+  {
+    for (const Vector3& place : places)
+    {
+      const vtkIdType point = points->InsertNextPoint(place.data());
+      vertices->InsertNextCell(1, &point);
+      kind->InsertNextValue(problem);
+    }
+  };
+  mark(problems.failed, kFailsHere);
+  mark(problems.inverted, kInverted);
+  data->SetPoints(points);
+  data->SetVerts(vertices);
+  while (kind->GetNumberOfValues() < data->GetNumberOfCells())
+  {
+    kind->InsertNextValue(kWithoutQuads);
+  }
+  data->GetCellData()->SetScalars(kind);
+  addText(data, "Words", problems.words);
+  return data;
+}
+
+} // namespace quadrille

@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the real window shows where there are no quads, or not of all: never nothing.
+
+  test_problems.py XVFB PARAVIEW OPENBOX
+
+Two tori, one of them with features that the quads asked for cannot follow. Without quads the view shows the input and
+where it fails, the panel's first field what to do; with those of one torus it shows them, and the triangles of the
+other one. Screenshots are left in the folder QUADRILLE_ARTIFACTS.
+"""
+import math
+import pathlib
+import sys
+import tempfile
+import types
+
+import test_places
+
+
+def write_two_tori(path, around=40, across=20):
+    """VTK's legacy format. All edges of the second torus are features that somebody asks for."""
+    points, faces = [], []
+    for middle in (0, 12):
+        first = len(points)
+        for i in range(around):
+            for j in range(across):
+                a, b = 2 * math.pi * i / around, 2 * math.pi * j / across
+                r = 4 + 1.5 * math.cos(b)
+                points.append((middle + r * math.cos(a), r * math.sin(a), 1.5 * math.sin(b)))
+        def at(i, j):
+            return first + i % around * across + j % across
+        for i in range(around):
+            for j in range(across):
+                faces += [(at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1))]
+    half = len(faces) // 2
+    path.write_text("# vtk DataFile Version 3.0\ntwo tori\nASCII\nDATASET POLYDATA\n"
+                    f"POINTS {len(points)} double\n" + "".join("%.9g %.9g %.9g\n" % p for p in points)
+                    + f"POLYGONS {len(faces)} {4 * len(faces)}\n" + "".join("3 %d %d %d\n" % f for f in faces)
+                    + f"CELL_DATA {len(faces)}\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n"
+                    + "0\n" * half + "7\n" * half, encoding="utf-8")
+    return half
+
+
+def colours(session):
+    """How many pixels of the view have which colour, the background left out."""
+    left, bottom = session.origin
+    width, height = session.value("tuple(view.ViewSize)")
+    counts = {}
+    for row in session.rows()[bottom - height + 30:bottom - 5]:
+        for x in range(left + 5, left + width - 5, 3):
+            pixel = row[3 * x:3 * x + 3]
+            counts[pixel] = counts.get(pixel, 0) + 1
+    background = max(counts, key=counts.get)
+    return {pixel: n for pixel, n in counts.items() if pixel != background}
+
+
+def marks(session):
+    """Pixels in the magenta of a place that fails, lit or not."""
+    return sum(n for (r, g, b), n in colours(session).items() if r > 60 and b > 60 and g < min(r, b) / 3)
+
+
+def check(condition, text):
+    if not condition:
+        raise SystemExit("FAILED: " + text)
+
+
+def problems(session):
+    """By kind: how many cells the output Problems has."""
+    return eval(session.ask(
+        "data = output(8); kinds = data.GetCellData().GetArray('Problem'); all_kinds = [kinds.GetTuple1(i) for i in "
+        "range(data.GetNumberOfCells())]; print([all_kinds.count(k) for k in (0, 1, 2)])"))
+
+
+def main():
+    programs = types.SimpleNamespace(**dict(zip(("xvfb", "paraview", "openbox"), sys.argv[1:])))
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        session = test_places.Session(folder, programs)
+        session.surface = folder / "tori.vtk"
+        half = write_two_tori(session.surface)
+        try:
+            session.start()
+            session.open(quads=30, more="quads().FailedComponents = 'Fail'", wait="output(8).GetNumberOfCells() > 0")
+            session.shot("problems-none")
+            check(session.value("output(0).GetNumberOfCells()") == 0, "there are quads, which was not to be")
+            without, fails, _ = problems(session)
+            check(without == 2 * half and fails > 0, f"the output Problems has {without} triangles, {fails} places")
+            seen = sum(colours(session).values())
+            check(seen > 5000, f"the view is blank after a failure: {seen} pixels")
+            check(marks(session) > 10, f"no place is marked: {marks(session)} pixels")
+            verdict = session.value("quads().GetPropertyValue('Verdict')")
+            check(0 <= verdict.find("ask for smaller quads") < 80, "the verdict is " + verdict)
+
+            session.ask("quads().FailedComponents = 'Leave Out'; simple.Render(view)")
+            session.wait_until("output(0).GetNumberOfCells() > 0", seconds=60)
+            session.shot("problems-some")
+            without, fails, _ = problems(session)
+            check(without == half and fails > 0, f"beside quads Problems has {without} triangles, {fails} places")
+            verdict = session.value("quads().GetPropertyValue('Verdict')")
+            check(verdict.startswith("1 of 2 connected components"), "the verdict is " + verdict)
+            check(marks(session) > 10, f"no place is marked beside quads: {marks(session)} pixels")
+        except BaseException:
+            session.shot("problems-failure")
+            print((folder / "log").read_text(encoding="utf-8"))
+            raise
+        finally:
+            session.close()
+    print("problems: fine")
+
+
+if __name__ == "__main__":
+    main()
