@@ -21,7 +21,8 @@ if(PARAVIEW_QT_MAJOR_VERSION) # older ones have Qt 5 and do not say so
   set(QUADRILLE_QT "${PARAVIEW_QT_MAJOR_VERSION}")
 endif()
 set(quadrille_client_default OFF)
-if(PARAVIEW_USE_QT AND TARGET ParaView::pqComponents)
+# The sources know Qt 6 as well, but were never tried in a window with it, so there they are built where asked for.
+if(PARAVIEW_USE_QT AND TARGET ParaView::pqComponents AND QUADRILLE_QT EQUAL 5)
   find_package(Qt${QUADRILLE_QT} QUIET COMPONENTS Widgets)
   set(quadrille_client_default "${Qt${QUADRILLE_QT}_FOUND}")
 endif()

@@ -23,7 +23,7 @@ needed=(
 if grep -q '^VERSION_ID="\?12"\?$' /etc/os-release; then
   needed+=(libqt5svg5 qtbase5-dev)
 else
-  needed+=(qt6-svg-plugins qt6-base-dev)
+  needed+=(qt6-svg-plugins)
 fi
 # Where a release of Debian lacks one of them, CMake leaves the tests out that need it, and says so.
 for_tests=(

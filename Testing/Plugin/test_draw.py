@@ -78,9 +78,11 @@ class Session(test_places.Session):
 
     def places(self, chance, count):
         found = []
-        while len(found) < count:
-            found += [p for p in super().places(chance, count) if p[0][1] > COVERED]
-        return found[:count]
+        for _ in range(20 + 10 * count):
+            found += [p for p in super().places(chance, 1) if p[0][1] > COVERED]
+            if len(found) == count:
+                return found
+        raise SystemExit("FAILED: hardly any place of the quads is seen in the upper part of the view")
 
     def balls(self):
         return [b for b in super().balls() if b[0][1] > COVERED]
@@ -170,7 +172,7 @@ def visible_balls(session, chance, least):
 def move(session, chance):
     ball = chance.choice(visible_balls(session, chance, 1))
     before = session.value(f"valence_at({tuple(ball[1])!r})")
-    places = [p for p in session.places(chance, 12)
+    places = [p for p in session.places(chance, 6)
               if session.edge < math.dist(p[1], ball[1]) < 5 * session.edge] or session.places(chance, 1)
     pixel, place = chance.choice(places)
     session.drag([ball[0], tuple((a + b) / 2 for a, b in zip(ball[0], pixel)), pixel])
