@@ -18,7 +18,7 @@ namespace quadrille
 namespace
 {
 
-/// The least sine of a corner, seen along the normal of the diagonals; at most 0 where a corner has 180 degrees or more.
+/// The least sine of a corner, seen along the normal of the diagonals; at most 0 where one has 180 degrees or more.
 double leastSine(const std::array<Vector3, 4>& p)
 {
   const Vector3 normal = (p[2] - p[0]).cross(p[3] - p[1]).stableNormalized();

@@ -21,7 +21,7 @@ namespace quadrille
 std::size_t takeVertices(const CadShape& shape, const CadSurface& surface,
   const std::vector<std::array<Index, 4>>& quads, std::vector<CadPlace>& places);
 
-/// Quads that were good and are turned over by their places have their corners where they were, until there are no more.
+/// Quads that were good and are turned over by their places have their corners where they were, until there are none.
 /// before: the points that were placed.
 void keepQuads(const std::vector<std::array<Index, 4>>& quads, const std::vector<Vector3>& before,
   std::vector<CadPlace>& places);

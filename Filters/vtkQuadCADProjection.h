@@ -4,12 +4,12 @@
  * @class   vtkQuadCADProjection
  * @brief   nodes of quads, put from the triangles onto the exact shape of the CAD file
  *
- * The input is quads, or elements of second order, that were made on a surface of vtkQuadrilleCADReader: the exact shape
- * is in their field data. The output has the same cells; a node on the polyline of a followed or free edge goes onto the
- * curve of that edge, one on a vertex of the shape onto that, all others onto the surface of the face whose triangle is
- * nearest, without leaving this face. Of quads of first order one node each also moves along its edge to a vertex that
- * would have none, as where an edge of the part is divided. Nodes stay where that is not possible, and where a quad would
- * be turned over.
+ * The input is quads, or elements of second order, that were made on a surface of vtkQuadrilleCADReader: the exact
+ * shape is in their field data. The output has the same cells; a node on the polyline of a followed or free edge goes
+ * onto the curve of that edge, one on a vertex of the shape onto that, all others onto the surface of the face whose
+ * triangle is nearest, without leaving this face. Of quads of first order one node each also moves along its edge to a
+ * vertex that would have none, as where an edge of the part is divided. Nodes stay where that is not possible, and
+ * where a quad would be turned over.
  *
  * Point arrays: `CadPlace` (0: the node stays, 1: on a face, 2: on an edge, 3: on a vertex), `CadId` (of the face, edge
  * or vertex; -1), `CadNormal` and `CadCurvature` (the larger and the smaller one) of the exact surface. Field data:

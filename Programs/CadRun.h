@@ -29,8 +29,8 @@ public:
   static bool isCad(const std::string& path);
   /// All its parts as one surface. Throws FileError, also where this build has no Open CASCADE.
   vtkSmartPointer<vtkPolyData> read(RemeshRun& run, const std::string& path) const;
-  /// The nodes of the mesh on the exact shape, or the mesh itself where that is not asked for. Notices go to the run. Null
-  /// where it fails, and the run has the reason.
+  /// The nodes of the mesh on the exact shape, or the mesh itself where that is not asked for. Notices go to the run.
+  /// Null where it fails, and the run has the reason.
   vtkSmartPointer<vtkDataSet> project(
     RemeshRun& run, const vtkSmartPointer<vtkDataSet>& mesh) const;
 

@@ -59,6 +59,7 @@ def main():
     options = parser.parse_args()
     sys.path.insert(0, str(options.build / "lib/python3/dist-packages"))
     import quadrille
+    import vtkmodules.vtkIOXML  # noqa: F401, so that Python knows the class of the reader
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     folder = pathlib.Path(tempfile.mkdtemp())

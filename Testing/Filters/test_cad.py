@@ -11,6 +11,7 @@ import sys
 import unittest
 
 import numpy
+import vtkmodules.vtkIOXML  # noqa: F401, so that Python knows the class of the reader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import quadrille
