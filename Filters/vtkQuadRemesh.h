@@ -459,8 +459,8 @@ public:
   const char* GetReusedStagesText() const { return this->GetReusedStages(); }
 
   ///@{
-  /// Whether output 1, the input surface with the map, is made; with METHOD_SEAMLESS it is in any case. Default: on, but
-  /// for proxies of ParaView, which switch it on when something takes the output as its input.
+  /// Whether output 1, the input surface with the map, is made; with METHOD_SEAMLESS it is in any case. Default: on. In
+  /// proxies of ParaView it is off until something takes the output as its input.
   vtkSetMacro(ComputeMappedSurface, vtkTypeBool);
   vtkGetMacro(ComputeMappedSurface, vtkTypeBool);
   vtkBooleanMacro(ComputeMappedSurface, vtkTypeBool);
