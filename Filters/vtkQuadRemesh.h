@@ -62,13 +62,13 @@
  * `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`,
  * `ReusedStages`, `Certificate`, `CertificateValid`, `CertificateNames`, `CertificateValues`, `Method`, `RepairNames`,
  * `RepairCounts`, `ExtractionNames`, `ExtractionCounts`, `Notices`, `EstimatedSeconds`, `EstimatedMegabytes`,
- * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `ComponentsWithoutQuads` where there are any, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`,
- * `Attempts` (maps that were tried), `RecoveryNames` and `RecoveryCounts` (the strategies that made all but the first
- * one), `TryNames`, `TriesTaken` and `TriesLed` (what was tried otherwise in any stage, how often, and how often that
- * is used), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the
- * getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`; with a FinalQuality other than Coarse
- * `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`; with a Symmetry what
- * vtkQuadrilleSymmetryAlgorithm tells.
+ * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `ComponentsWithoutQuads` where there are any, `CoarseVertices`,
+ * `Decimations`, `Replays`, `SurfaceFaces`, `Attempts` (maps that were tried), `RecoveryNames` and `RecoveryCounts`
+ * (the strategies that made all but the first one), `TryNames`, `TriesTaken` and `TriesLed` (what was tried otherwise
+ * in any stage, how often, and how often that is used), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`,
+ * `ShortestBoundaryOverEdgeLength` (see the getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`;
+ * with a FinalQuality other than Coarse `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`;
+ * with a Symmetry what vtkQuadrilleSymmetryAlgorithm tells.
  */
 #ifndef vtkQuadRemesh_h
 #define vtkQuadRemesh_h
