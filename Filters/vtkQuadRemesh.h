@@ -54,9 +54,9 @@
  *    sizes there), `Decision` ("resolved": quads are smaller there, "simplified", "kept"), `Result` (what became
  *    of it), `DecisionId` (0 resolved, 1 simplified, 2 kept).
  * 8. what is wrong, to be seen beside the quads: the polygons that have none, those of components that were left out
- *    (see FailedComponents) or, after a failure without quads from before, all of the input; and a vertex for each place
- *    where the map or the quads have failed, and for each inverted quad. Cells: `Problem` (0 without quads, 1 fails
- *    here, 2 inverted). Field data: `Words`, what is told of it. Empty where all is well.
+ *    (see FailedComponents) or, after a failure without quads from before, all of the input; and a vertex for each
+ *    place where the map or the quads have failed, and for each inverted quad. Cells: `Problem` (0 without quads, 1
+ *    fails here, 2 inverted). Field data: `Words`, what is told of it. Empty where all is well.
  *
  * Field data of output 0, beside that of the input: `LayoutPatchShape` (a patch: 0 four corners, 1 ring, 2 torus) and
  * `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`,
