@@ -54,21 +54,21 @@
  *    sizes there), `Decision` ("resolved": quads are smaller there, "simplified", "kept"), `Result` (what became
  *    of it), `DecisionId` (0 resolved, 1 simplified, 2 kept).
  * 8. what is wrong, to be seen beside the quads: the polygons that have none, those of components that were left out
- *    (see FailedComponents) or, after a failure without quads from before, all of the input; and a vertex for each place
- *    where the map or the quads have failed, and for each inverted quad. Cells: `Problem` (0 without quads, 1 fails
- *    here, 2 inverted). Field data: `Words`, what is told of it. Empty where all is well.
+ *    (see FailedComponents) or, after a failure without quads from before, all of the input; and a vertex for each
+ *    place where the map or the quads have failed, and for each inverted quad. Cells: `Problem` (0 without quads, 1
+ *    fails here, 2 inverted). Field data: `Words`, what is told of it. Empty where all is well.
  *
  * Field data of output 0, beside that of the input: `LayoutPatchShape` (a patch: 0 four corners, 1 ring, 2 torus) and
  * `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`,
  * `ReusedStages`, `Certificate`, `CertificateValid`, `CertificateNames`, `CertificateValues`, `Method`, `RepairNames`,
  * `RepairCounts`, `ExtractionNames`, `ExtractionCounts`, `Notices`, `EstimatedSeconds`, `EstimatedMegabytes`,
- * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `ComponentsWithoutQuads` where there are any, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`,
- * `Attempts` (maps that were tried), `RecoveryNames` and `RecoveryCounts` (the strategies that made all but the first
- * one), `TryNames`, `TriesTaken` and `TriesLed` (what was tried otherwise in any stage, how often, and how often that
- * is used), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the
- * getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`; with a FinalQuality other than Coarse
- * `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`; with a Symmetry what
- * vtkQuadrilleSymmetryAlgorithm tells.
+ * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `ComponentsWithoutQuads` where there are any, `CoarseVertices`,
+ * `Decimations`, `Replays`, `SurfaceFaces`, `Attempts` (maps that were tried), `RecoveryNames` and `RecoveryCounts`
+ * (the strategies that made all but the first one), `TryNames`, `TriesTaken` and `TriesLed` (what was tried otherwise
+ * in any stage, how often, and how often that is used), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`,
+ * `ShortestBoundaryOverEdgeLength` (see the getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`;
+ * with a FinalQuality other than Coarse `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`;
+ * with a Symmetry what vtkQuadrilleSymmetryAlgorithm tells.
  */
 #ifndef vtkQuadRemesh_h
 #define vtkQuadRemesh_h
@@ -460,8 +460,8 @@ public:
   const char* GetReusedStagesText() const { return this->GetReusedStages(); }
 
   ///@{
-  /// Whether output 1, the input surface with the map, is made; with METHOD_SEAMLESS it is in any case. Default: on, but
-  /// for proxies of ParaView, which switch it on when something takes the output as its input.
+  /// Whether output 1, the input surface with the map, is made; with METHOD_SEAMLESS it is in any case. Default: on. In
+  /// proxies of ParaView it is off until something takes the output as its input.
   vtkSetMacro(ComputeMappedSurface, vtkTypeBool);
   vtkGetMacro(ComputeMappedSurface, vtkTypeBool);
   vtkBooleanMacro(ComputeMappedSurface, vtkTypeBool);

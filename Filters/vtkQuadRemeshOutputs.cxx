@@ -204,8 +204,7 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   problems.words = { defect };
   block.output(this->GetProblemPort())->ShallowCopy(quadrille::writeProblems(problems));
   block.state->report.hasDefect = !defect.empty();
-  block.state->report.result = defect +
-    resultText(result, written.irregular->GetNumberOfPoints()) +
+  block.state->report.result = defect + resultText(result, written.irregular->GetNumberOfPoints()) +
     (defect.empty() && !result.quads.quads.empty() ? ", all valid" : "") + constraintText(words);
   block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
 }

@@ -37,9 +37,9 @@ std::optional<Restart> withoutRest(Settled& settled, SizedSurface& sized,
 std::optional<Restart> withYieldingBorders(
   const Settled& settled, const SizedSurface& sized, const Plan& first, const History& before);
 
-/// Without the connected components that have failed in each attempt, or in the last one where none has in all: what is
-/// left begins as a surface of its own, with its share of the quads. failed: tells what was left out. None where nothing
-/// would be left, or where it is not known which component has failed.
+/// Without the connected components that have failed in at least half as many attempts as the one that has failed in
+/// most: what is left begins as a surface of its own, with its share of the quads. failed: tells what was left out.
+/// None where nothing would be left, or where it is not known which component has failed.
 std::optional<Restart> withoutFailed(Settled& settled, SizedSurface& sized,
   const RemeshOptions& options, ResultStore* store, Plan& first, const History& before,
   FailedParts& failed);

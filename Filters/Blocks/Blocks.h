@@ -35,7 +35,7 @@ struct BlockReport
   std::string outcomeText;
   bool isSoFar =
     false; ///< stopped with the best so far, which is the result; the next execution makes it anew
-  std::string result;      ///< what was made, in a sentence
+  std::string result;     ///< what was made, in a sentence
   bool hasDefect = false; ///< the sentence begins with what is wrong with it
   bool mayPass =
     false; ///< a failure that may pass by itself, as for lack of memory: the next execution tries again

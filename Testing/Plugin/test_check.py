@@ -20,7 +20,8 @@ def failing_script():
 
     simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
     mesh = surface(simple)
-    quads = QuadRemesh(Input=mesh, TargetType="Edge Length", EdgeLength=-1)
+    # What looks at the mapped surface would switch it on, which is another execution.
+    quads = QuadRemesh(Input=mesh, TargetType="Edge Length", EdgeLength=-1, ComputeMappedSurface=1)
     quads.UpdatePipeline()
     for port in range(4):  # as ParaView does for what is shown
         simple.Calculator(Input=simple.OutputPort(quads, port), Function="1").UpdatePipeline()

@@ -9,7 +9,8 @@ Opens a surface and makes quads by keyboard. A pick: a key over a ball of *Irreg
 stroke: four random visible places, by the gesture of the guide. Where the points came to lie is compared with the ball,
 or with the place under the mouse, which rays from the camera tell: half an edge length of the quads is allowed. A
 trace: all from File > Open on is recorded, with one or two constraints, and run in pvpython and in pvbatch, and so is
-the state that is saved at last: same bytes. All random places come from the seed. Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox and xdotool.
+the state that is saved at last: same bytes. All random places come from the seed. Screenshots are left in the folder
+QUADRILLE_ARTIFACTS. Needs Debian's openbox and xdotool.
 """
 import argparse
 import math

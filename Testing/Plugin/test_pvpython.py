@@ -82,7 +82,8 @@ known = {"Verdict", "TargetType", "NumberOfQuads", "EdgeLength", "RelativeEdgeLe
          "SmallDetails", "Symmetry", "PlaneCurve", "RotationOrder", "SymmetryOrigin", "SymmetryNormal", "ResultText"}
 check(shown == known, f"at first the panel has {shown - known} more, and not {known - shown}")
 check(names.index("Verdict") < names.index("NumberOfQuads") < names.index("FeatureAngle")
-      < names.index("GuidingStrokes") < names.index("ResultText") < names.index("NumberOfThreads"), f"the properties come as {names}")
+      < names.index("GuidingStrokes") < names.index("ResultText") < names.index("NumberOfThreads"),
+      f"the properties come as {names}")
 
 # The patch array is found by its name.
 marked = simple.Calculator(Input=mesh, AttributeType="Cell Data", ResultArrayName="PatchId", Function="1",
