@@ -262,6 +262,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     !isThinned && this->Symmetry == SYMMETRY_NONE;
   quadrille::ConvertedSurface converted =
     toCut ? this->ConvertForPieces(block) : this->ConvertInputs(block, &asked);
+  options.keepsPositions = options.keepsPositions || quadrille::asksForMoves(asked.placed);
   quadrille::PiecesResult pieces;
   quadrille::LevelMemory* memory =
     this->KeepLevels ? &block.state->memoryAs<quadrille::LevelMemory>() : nullptr;

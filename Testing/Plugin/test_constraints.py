@@ -76,7 +76,7 @@ def irregular(proxy):
     return list(zip(points_of(data), vtk_to_numpy(data.GetPointData().GetArray("Valence"))))
 
 
-plain = remeshed()
+plain = remeshed(ComputeMappedSurface=1)
 
 # Each source makes one cell with all arrays; one that is switched off makes nothing.
 line = [-0.5, -0.33, 0.34, 0.4, -0.47, 0.0]
