@@ -166,11 +166,11 @@ public:
 
   ///@{
   /**
-   * Sweeps in which the points of the quads move over the surface, those of features and boundaries along their curves,
-   * towards the average of their neighbours; a move that would lower the worst scaled Jacobian round a point is not
-   * made. Points of curves slide to the bends of their curve, too, as long as scaled Jacobians stay above 0.3, so that
-   * the edges of the quads lie close to it. Then points near quads that are turned over at a corner move to mend them. At least 0: the points stay where
-   * the map has them. Default: 5.
+   * Sweeps in which the points of the quads move over the surface, those of features and boundaries along their
+   * curves, towards the average of their neighbours; a move that would lower the worst scaled Jacobian round a point
+   * is not made. Points of curves slide to the bends of their curve, too, as long as scaled Jacobians stay above 0.3,
+   * so that the edges of the quads lie close to it. Then points near quads that are turned over at a corner move to
+   * mend them. At least 0: the points stay where the map has them. Default: 5.
    */
   vtkSetMacro(SmoothingSteps, int);
   vtkGetMacro(SmoothingSteps, int);

@@ -328,7 +328,7 @@ def check_trace(folder, options, chance):
         environment = count_actions.environment_of(session)
     finally:
         session.close()
-    again = test_places.replay(path, options, environment)
+    again = test_places.replay(path, options.pvpython, options, environment)
     print(f"trace: made {made}, replayed {again}", flush=True)
     if made != again or made[2] != 2:
         print(path.read_text(encoding="utf-8"))
