@@ -8,6 +8,7 @@
 #include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPVXMLElement.h"
 #include "vtkSMInputProperty.h"
 #include "vtkSMParaViewPipelineController.h"
@@ -74,7 +75,8 @@ void makeOnDemand(vtkPVXMLElement* hints, int port, vtkSMProxy* filter)
   }
 }
 
-/// Before there is an array: ParaView chooses colours when a representation is made, and not again.
+/// When there are cells with the array: ParaView chooses colours when a representation is made, and not again; set
+/// before, it warns that the array has no range, and shows a legend of nothing.
 void applyColourHints(
   vtkPVXMLElement* hints, int port, vtkSMProxy* representation, vtkSMSessionProxyManager* manager)
 {
@@ -94,6 +96,7 @@ void applyColourHints(
     const std::string table = std::string(array) + ".PVLookupTable";
     vtkSMPropertyHelper(representation, "LookupTable")
       .Set(manager->GetProxy("lookup_tables", table.c_str()));
+    representation->UpdateVTKObjects();
   }
 }
 
@@ -195,6 +198,21 @@ void makeColourMaps(vtkPVXMLElement* hints, vtkSMSessionProxyManager* manager)
   }
 }
 
+bool isColouredByHint(vtkPVXMLElement* hints, int port)
+{
+  for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
+  {
+    int wanted = -1;
+    vtkPVXMLElement* hint = hints->GetNestedElement(i);
+    if (std::strcmp(hint->GetName(), "Colour") == 0 && hint->GetScalarAttribute("port", &wanted) &&
+      wanted == port)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 bool isRepresentation(vtkSMProxy* proxy)
 {
   const char* group = proxy ? proxy->GetXMLGroup() : nullptr;
@@ -238,6 +256,21 @@ void vtkSMQuadrilleSourceProxy::PostUpdateData(bool usingCache)
 {
   this->Superclass::PostUpdateData(usingCache);
   this->UpdatePropertyInformation();
+  for (unsigned int i = 0; i < this->GetNumberOfConsumers(); ++i)
+  {
+    vtkSMProxy* consumer = this->GetConsumerProxy(i);
+    const int port = connectedPort(this->GetConsumerProperty(i), this);
+    if (port < 0 || !isRepresentation(consumer) || !isColouredByHint(this->GetHints(), port) ||
+      this->GetDataInformation(static_cast<unsigned int>(port))->GetNumberOfCells() == 0)
+    {
+      continue;
+    }
+    const vtkSMPropertyHelper colours(consumer, "ColorArrayName", true);
+    if (colours.GetNumberOfElements() < 5 || std::strlen(colours.GetAsString(4)) == 0)
+    {
+      applyColourHints(this->GetHints(), port, consumer, this->GetSessionProxyManager());
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -262,7 +295,6 @@ void vtkSMQuadrilleSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy*
     makeColourMaps(this->GetHints(), this->GetSessionProxyManager());
     letPicksThrough(port, consumer);
     applyDisplayHints(this->GetHints(), port, consumer);
-    applyColourHints(this->GetHints(), port, consumer, this->GetSessionProxyManager());
   }
 }
 

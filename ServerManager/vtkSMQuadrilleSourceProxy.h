@@ -15,8 +15,8 @@
  * the moment it is made; there is one element for each property, with one number. What a user, a script or a state file
  * sets later stays.
  *
- * A hint `<Colour port="8" cells="Problem"/>` has the representations of an output coloured by an array of its cells,
- * also while it has none.
+ * A hint `<Colour port="8" cells="Problem"/>` has the representations of an output coloured by an array of its cells as
+ * soon as it has cells, where they have no colours by then.
  *
  * A hint `<OnDemand port="1" property="ComputeMappedSurface"/>` switches the property on when something takes the
  * output as its input: ParaView gathers information of all outputs, looked at or not, so what costs is not made before.
