@@ -126,7 +126,8 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
     this->CheckSheets(parts, contacts, blocks);
   }
   quadrille::RemeshOptions options = this->MakeRunOptions(*blocks.front());
-  options.preview = false; // what it leaves out is needed to take the quads apart, and so are positions
+  options.preview =
+    false; // what it leaves out is needed to take the quads apart, and so are positions
   options.keepsPositions = true;
   std::vector<double> shares, sizes;
   this->ShareQuads(blocks, options, shares, sizes);
