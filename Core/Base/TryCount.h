@@ -26,7 +26,7 @@ enum class Try : std::uint8_t
   CoarserFeatures,
   NoBorders,
   FewerDetails,
-  FewerComponents,
+  Components,
   BordersYield,
   WithoutGuides,
   LargerPull,

@@ -64,6 +64,18 @@ FlatSources::FlatSources(PreparedSurface before, std::vector<Index> faces)
 {
 }
 
+std::shared_ptr<const FlatSources> FlatSources::movedOnto(
+  std::shared_ptr<const FlatSources> before, Index shared, Index shift) const
+{
+  PreparedSurface moved = before_;
+  moved.beforeFlips = std::move(before);
+  for (FlippedFace& face : moved.flipped.editAll())
+  {
+    face.level += face.level > shared ? shift : 0;
+  }
+  return std::make_shared<const FlatSources>(std::move(moved), faces_);
+}
+
 /// A place of the face on the triangles of before. Where sheets touch, its own side counts, unless faces were reversed
 /// since.
 NearestTriangle::Place FlatSources::under(

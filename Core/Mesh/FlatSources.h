@@ -31,6 +31,11 @@ public:
 
   /// 1 for the first flips of a surface, 2 for those of what these have made, and so on.
   Index level() const { return level_; }
+  /// The flips before these; null: none.
+  const std::shared_ptr<const FlatSources>& before() const { return before_.beforeFlips; }
+  /// The same flips after others of the same surface. Levels above `shared` are those of its own, and rise by `shift`.
+  std::shared_ptr<const FlatSources> movedOnto(
+    std::shared_ptr<const FlatSources> before, Index shared, Index shift) const;
   /// Source of the place with these barycentric coordinates in a face of this level, or an earlier one.
   SourceLocation locate(const FlippedFace& face, const std::array<double, 3>& weights) const;
 

@@ -354,6 +354,7 @@ std::shared_ptr<MapAttempt> makeCoarseMap(RunContext& run, const PlannedSurface&
 void carryToSurface(
   RunContext& run, const PlannedSurface& surface, const Hierarchy& levels, MapAttempt& made)
 {
+  const WorkScope scope;
   const Mesh& mesh = surface->mesh;
   made.turns = expectedTurns(mesh, made.coarse, made.coarseTurns);
   made.integerVertex.assign(mesh.vertexCount(), 0);
@@ -377,6 +378,7 @@ void carryToSurface(
     mendFewPlaces(run, mesh, levels, made);
   }
   made.isCarried = true;
+  made.workOfCarrying = scope.done();
   tellOfRounding(run.options.method, made);
 }
 

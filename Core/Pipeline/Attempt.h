@@ -80,6 +80,7 @@ struct MapAttempt
   std::vector<Vector3> failedPlaces;       ///< their positions
   std::vector<Index> failedIn;       ///< a vertex of each component of the surface that has no map
   std::size_t work = 0;              ///< see Base/WorkCount.h; of the map of the coarse level
+  std::size_t workOfCarrying = 0;    ///< of the way to the surface
   bool isInterrupted = false;        ///< as the work was spent
   std::vector<Index> curvesFailedAt; ///< GridMapResult::curvesFailedAt, as vertices of the surface
 

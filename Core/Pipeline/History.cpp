@@ -8,19 +8,6 @@
 
 namespace quadrille
 {
-namespace
-{
-
-void noteFailure(const std::vector<Index>& vertices, std::vector<std::vector<Index>>& failures)
-{
-  if (!vertices.empty())
-  {
-    failures.push_back(vertices);
-  }
-}
-
-} // namespace
-
 void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
 {
   if (roundIsOver_)
@@ -31,7 +18,7 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
   }
   steps_.emplace_back(plan.step);
   round_.push_back({ plan.step, map->failedAt.size() });
-  workOfLast_ = map->work + bound_.ofAttempt;
+  workOfLast_ = map->work + map->workOfCarrying + bound_.ofAttempt;
   work_ += workOfLast_;
   take(*map);
   if (!plan.made.empty())
@@ -41,7 +28,6 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
   last_ = { plan, std::move(map), nullptr };
   if (!last_.map->status.ok())
   {
-    noteFailure(last_.map->failedIn, failures_);
     return;
   }
   replays_ += last_.map->stages.has("replay") ? 1 : 0;
@@ -67,10 +53,6 @@ void History::addQuads(std::shared_ptr<const QuadAttempt> quads)
   best_.quads = std::move(quads);
   last_ = best_;
   take(*last_.quads);
-  if (!last_.quads->status.ok())
-  {
-    noteFailure(last_.quads->failedAt, failures_);
-  }
   if (last_.quads->status.ok() &&
     (!result_.quads || 2 * last_.quads->invertedQuads <= result_.quads->invertedQuads))
   {

@@ -43,8 +43,6 @@ public:
   std::size_t trailing(const std::string& step) const;
   /// At how many vertices the coarse map failed in the attempt before the last one of the round; 0 where there is none.
   std::size_t failedBefore() const;
-  /// Of each attempt that has failed, vertices of the surface in the components that it failed in, where it tells.
-  const std::vector<std::vector<Index>>& failures() const { return failures_; }
 
   /// The attempt that has quads, of several the one with the fewest that are inverted: a later one counts only where
   /// it has at most half as many, as what it gave up has a price. Without any, that of the last round.
@@ -92,7 +90,6 @@ private:
   Attempt result_;
   bool roundIsOver_ = true;
   std::vector<Summary> round_;
-  std::vector<std::vector<Index>> failures_;
   std::vector<std::string> steps_;
   AttemptLog all_; ///< without notices; tries: taken
 

@@ -59,6 +59,7 @@ struct RemeshResult
   /// What was tried otherwise, in whatever stage, and how often what was tried is used by this result (see
   /// Base/TryCount.h). What a run takes over from an earlier one below its maps is not counted again.
   TryCounts tries;
+  std::size_t work = 0;            ///< of all attempts, see Base/WorkCount.h
   std::vector<StageRecord> stages; ///< see StageRecords; seconds are sums over all attempts
   /// Names of the stages that no attempt has computed, as the store had their results, and of those that started from
   /// an earlier map.

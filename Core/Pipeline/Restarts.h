@@ -3,7 +3,6 @@
 /// How attempts begin again where none has had quads.
 #pragma once
 
-#include "Pipeline/FailedParts.h"
 #include "Pipeline/History.h"
 #include "Pipeline/SettledSurface.h"
 
@@ -12,9 +11,6 @@
 namespace quadrille
 {
 
-/// How often components are left out.
-constexpr int kMostLeftOut = 2;
-
 struct Restart
 {
   Plan plan;
@@ -22,6 +18,9 @@ struct Restart
   Try what;              ///< is tried by it, beside what has made the plan
   bool isCounted = true; ///< false: nothing else than that plan is otherwise
 };
+
+/// Of all attempts at a surface, before any has failed.
+WorkBound boundOf(const SizedSurface& sized);
 
 /// The first attempts. What is left of the bound is for those without details that were left.
 History firstHistory(
@@ -36,12 +35,5 @@ std::optional<Restart> withoutRest(Settled& settled, SizedSurface& sized,
 /// With borders of patches that give way, as many attempts as before; none where nothing yields.
 std::optional<Restart> withYieldingBorders(
   const Settled& settled, const SizedSurface& sized, const Plan& first, const History& before);
-
-/// Without the connected components that have failed in at least half as many attempts as the one that has failed in
-/// most: what is left begins as a surface of its own, with its share of the quads. failed: tells what was left out.
-/// None where nothing would be left, or where it is not known which component has failed.
-std::optional<Restart> withoutFailed(Settled& settled, SizedSurface& sized,
-  const RemeshOptions& options, ResultStore* store, Plan& first, const History& before,
-  FailedParts& failed);
 
 } // namespace quadrille

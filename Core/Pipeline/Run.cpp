@@ -4,17 +4,23 @@
 /// map carried back to the surface, its quads; and what is tried where a map or its quads fail.
 #include "Pipeline/Run.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Pipeline/Attempt.h"
+#include "Pipeline/Division.h"
 #include "Pipeline/EnterFrame.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/History.h"
+#include "Pipeline/JoinedParts.h"
 #include "Pipeline/Recovery.h"
 #include "Pipeline/Restarts.h"
 #include "Pipeline/RunResult.h"
 
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace quadrille
 {
@@ -72,18 +78,30 @@ void makeQuadsOfRound(RunContext& run, History& history)
 }
 
 /// Rounds of attempts until one is good or nothing is left to try: maps until one is good or no other would be better,
-/// then the quads of the best one. isLast: where no attempt has quads, nothing follows.
+/// then the quads of the best one. isLast: where no attempt has quads, nothing follows. Where the surface is divided
+/// after a failure, the first one is the end.
 /// After a stop result.stopped tells what was tried, and the quads so far are the result, or those of a map that is
 /// there already; throws Cancelled without any.
-void makeRounds(
-  RunContext& run, std::optional<Plan> plan, bool isLast, History& history, RemeshResult& result)
+void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> plan, bool isLast,
+  History& history, RemeshResult& result)
 {
   bool makesQuads = false; // a stop meanwhile may leave the map half solved
   try
   {
-    for (; plan; plan = nextPlan(run, history, isLast))
+    const auto next = [&]
     {
-      for (; plan; plan = nextMapPlan(run, history))
+      return history.hasResult() || !isDivided(sized, history) ? nextPlan(run, history, isLast)
+                                                               : std::nullopt;
+    };
+    const auto nextMap = [&]
+    {
+      return history.last().map->status.ok() || !isDivided(sized, history)
+        ? nextMapPlan(run, history)
+        : std::nullopt;
+    };
+    for (; plan; plan = next())
+    {
+      for (; plan; plan = nextMap())
       {
         *run.tried = triedText(*plan, history);
         if (isLastResort(*plan))
@@ -124,7 +142,7 @@ History makeAttempts(Settled& settled, SizedSurface& sized, const RemeshOptions&
 {
   History history = firstHistory(settled, sized, options);
   Plan first = firstPlan(*settled.run);
-  makeRounds(*settled.run, first, !hasRest(settled, options), history, result);
+  makeRounds(*settled.run, sized, first, !hasRest(settled, options), history, result);
   const auto beginAgain = [&](std::optional<Restart> again)
   {
     if (again)
@@ -133,23 +151,165 @@ History makeAttempts(Settled& settled, SizedSurface& sized, const RemeshOptions&
       sized.stages.add("retries", history.seconds(), 0, 0);
       history = std::move(again->history);
       countTry(again->what, again->isCounted ? 1 : 0);
-      makeRounds(*settled.run, std::move(again->plan), true, history, result);
+      makeRounds(*settled.run, sized, std::move(again->plan), true, history, result);
       countTryLed(again->what, again->isCounted && history.hasResult() ? 1 : 0);
     }
   };
-  if (!history.hasResult())
+  if (!history.hasResult() && !isDivided(sized, history))
   {
     beginAgain(withoutRest(settled, sized, options, store, first, history));
   }
-  if (!history.hasResult())
+  if (!history.hasResult() && !isDivided(sized, history))
   {
     beginAgain(withYieldingBorders(settled, sized, first, history));
   }
-  for (int i = 0; i < kMostLeftOut && !history.hasResult(); ++i)
-  {
-    beginAgain(withoutFailed(settled, sized, options, store, first, history, result.failed));
-  }
   return history;
+}
+
+/// What the parts of a run have in common.
+struct Asked
+{
+  const Frame& frame;
+  const RemeshOptions& options; ///< in the frame
+  ResultStore* store;
+  bool quadsAlone;
+};
+
+void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, RemeshResult& result);
+
+/// Why there are no quads.
+struct Failure
+{
+  Status status;
+  std::vector<Vector3> places;
+};
+
+/// What a part may take of the work of the whole: an equal share of what the parts before have left, or its share by
+/// area, or what it needs at least.
+std::size_t workOfPart(
+  const SizedPart& part, std::size_t whole, std::size_t left, std::size_t parts)
+{
+  return std::max({ left / parts, static_cast<std::size_t>(part.share * static_cast<double>(whole)),
+    leastOfPart(part.sized.surface->mesh.faceCount(), part.sized.targetQuads) });
+}
+
+/// The parts one by one, until one has no quads unless those are left out. work: that they may take together. settled:
+/// gets their details.
+Failure remeshParts(std::vector<SizedPart> parts, std::size_t work, Settled& settled,
+  const Asked& asked, JoinedParts& joined)
+{
+  eraseIf(settled.details,
+    [](const SmallDetail& detail) { return detail.decision != DetailDecision::Simplify; });
+  const RemeshOptions& whole = asked.options;
+  std::size_t left = work;
+  Failure failure;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const auto share = [&](std::size_t of)
+    { return static_cast<double>(of) / static_cast<double>(parts.size()); };
+    RemeshOptions options = whole;
+    options.progress = subProgress(whole.progress, share(i), share(i + 1),
+      "Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) + ": ");
+    SizedPart& part = parts[i];
+    part.sized.work = workOfPart(part, work, left, parts.size() - i);
+    RemeshResult made;
+    Settled own = settleDetails(part.sized, options, asked.store);
+    remeshSettled(own, part.sized, { asked.frame, options, asked.store, asked.quadsAlone }, made);
+    {
+      double t = 0;
+      fprintf(stderr, "part %zu/%zu comps %u share %.4f faces %u quads %zu->%zu ok %d:", i,
+        parts.size(), part.sized.surface->components, part.share,
+        part.sized.surface->mesh.faceCount(), part.sized.targetQuads, made.quads.quads.size(),
+        int(made.status.ok()));
+      for (auto& s : made.attempts)
+        fprintf(stderr, " [%s]", s.c_str());
+      for (auto& s : made.stages)
+      {
+        t += s.seconds;
+        if (s.seconds > 0.3)
+          fprintf(stderr, " %s %.1f", s.stage.c_str(), s.seconds);
+      }
+      fprintf(stderr, " = %.1f s\n", t);
+    }
+    left -= std::min(left, made.work);
+    append(settled.details, own.details);
+    settled.decimations += own.decimations;
+    if (made.status.ok())
+    {
+      joined.add(part, std::move(made));
+      continue;
+    }
+    failure.status = failure.status.ok() ? made.status : failure.status;
+    append(failure.places, made.failed.places);
+    joined.leaveOut(part, made);
+    if (!whole.leavesOutFailed)
+    {
+      break;
+    }
+  }
+  return failure;
+}
+
+/// The surface in parts: whether they have quads, which are those of the result then, and otherwise why not.
+bool remeshDivided(const std::vector<Index>& failed, Settled& settled, SizedSurface& sized,
+  const Asked& asked, JoinedParts& joined, RemeshResult& result, Failure& failure)
+{
+  const RemeshOptions& options = asked.options;
+  countTry(Try::Components);
+  failure = remeshParts(
+    divide(sized, failed, options.threads), boundOf(sized).work, settled, asked, joined);
+  if (!failure.status.ok() && !(options.leavesOutFailed && joined.hasQuads()))
+  {
+    return false;
+  }
+  countTryLed(Try::Components);
+  result.stages = sized.stages.all();
+  result.reused = sized.reused;
+  sized.surface = std::make_shared<const PreparedSurface>(joined.take(result, options.threads));
+  result.mapIsKnown =
+    options.knownMap != 0 && result.mapKey == options.knownMap && !options.warmStart;
+  return true;
+}
+
+/// The attempts of a surface or, where they fail and it can be divided, of its parts.
+void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, RemeshResult& result)
+{
+  const RemeshOptions& options = asked.options;
+  JoinedParts joined(sized);
+  Failure failure;
+  if (!settled.status.ok())
+  {
+    const bool isDivided = options.leavesOutFailed && sized.surface->components > 1 &&
+      remeshDivided({}, settled, sized, asked, joined, result, failure);
+    result.status = isDivided ? result.status : settled.status;
+    return;
+  }
+  History history = makeAttempts(settled, sized, options, asked.store, result);
+  RunContext& run = *settled.run;
+  run.levels.letGo();
+  const bool failed = isDivided(sized, history);
+  if (failed)
+  {
+    history.packMaps(sized.surface->mesh);
+    result.tries.addTaken(history.tries());
+    result.work += history.work();
+    result.replays += history.replays();
+    result.decimations += run.levels.decimations();
+    sized.stages.add("retries", history.seconds(), 0, 0);
+    const Attempt& last = history.last();
+    if (remeshDivided(last.quads ? last.quads->failedAt : last.map->failedIn, settled, sized, asked,
+          joined, result, failure))
+    {
+      return;
+    }
+  }
+  takeAttempts(history, run, asked.frame, options, asked.quadsAlone, sized, result);
+  if (failed)
+  {
+    joined.takeLog(result);
+    result.status = failure.status;
+    result.failed.places = failure.places;
+  }
 }
 
 RemeshResult remeshInput(
@@ -186,23 +346,21 @@ void remeshSized(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
   }
   Settled settled = settleDetails(sized, options, store);
   takeBlocks(sized, result);
-  if (!settled.status.ok())
-  {
-    result.status = settled.status;
-    takeDetails(settled, result);
-    return;
-  }
-  if (const auto spare = quadsAlone ? findIn<SpareMap>(store, 0) : nullptr)
+  if (const auto spare = quadsAlone && settled.run ? findIn<SpareMap>(store, 0) : nullptr)
   {
     settled.run->spare.swap(spare->uv);
   }
+  std::vector<std::string> notices;
+  notices.swap(result.notices);
+  remeshSettled(settled, sized, { frame, options, store, quadsAlone }, result);
+  notices.swap(result.notices);
+  takeDetails(settled, result);
+  append(result.notices, notices);
+  if (result.status.ok() && result.failed.components > 0)
   {
-    const History history = makeAttempts(settled, sized, options, store, result);
-    settled.run->levels.letGo();
-    takeDetails(settled, result);
-    takeAttempts(history, *settled.run, frame, options, quadsAlone, sized, result);
+    result.notices.insert(result.notices.begin(), result.failed.text());
   }
-  if (quadsAlone && store != nullptr)
+  if (quadsAlone && store != nullptr && settled.run)
   {
     auto spare = std::make_shared<SpareMap>();
     spare->uv.swap(result.uv.empty() ? settled.run->spare : result.uv);

@@ -72,25 +72,17 @@ void addGivenUp(
   }
 }
 
-/// Where nothing has quads, components that were left out are nothing of their own.
+/// Where nothing has quads.
 void noteFailed(const Attempt& attempt, const Mesh& mesh, RemeshResult& result)
 {
-  FailedParts& failed = result.failed;
   if (result.status.ok())
   {
-    if (failed.components > 0)
-    {
-      result.notices.insert(result.notices.begin(), failed.text());
-    }
     return;
   }
-  const std::vector<Index> vertices =
+  const std::vector<Index>& vertices =
     attempt.quads ? attempt.quads->failedAt : attempt.map->failedIn;
-  const std::vector<Vector3> places =
+  result.failed.places =
     attempt.map->failedPlaces.empty() ? positionsOf(mesh, vertices) : attempt.map->failedPlaces;
-  failed.components = 0;
-  failed.polygons.clear();
-  failed.places.insert(failed.places.end(), places.begin(), places.end());
 }
 
 void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& result)
@@ -186,6 +178,7 @@ void takeAttempts(const History& history, RunContext& run, const Frame& frame,
 {
   const Attempt& attempt = history.result();
   result.tries.add(history.tries());
+  result.work += history.work();
   result.targetQuads = run.targetQuads;
   result.smallParts = run.shortLoops.parts;
   sized.surface = withPlan(run.surface, attempt.plan, options.threads).surface;

@@ -457,11 +457,4 @@ bool simplifyRest(
   return isMore && settled.status.ok();
 }
 
-void settleOther(
-  Settled& settled, SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
-{
-  letGo(settled);
-  findShortLoops(settled.run.emplace(makeRun(sized, options, store)), sized.stages, sized.reused);
-}
-
 } // namespace quadrille

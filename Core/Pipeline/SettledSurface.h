@@ -39,8 +39,4 @@ bool hasRest(const Settled& settled, const RemeshOptions& options);
 bool simplifyRest(
   Settled& settled, SizedSurface& sized, const RemeshOptions& options, ResultStore* store);
 
-/// For a surface that has changed otherwise: another run, with its short loops.
-void settleOther(
-  Settled& settled, SizedSurface& sized, const RemeshOptions& options, ResultStore* store);
-
 } // namespace quadrille

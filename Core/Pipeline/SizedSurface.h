@@ -11,6 +11,7 @@
 #include "Pipeline/ResultStore.h"
 #include "Pipeline/SmallDetails.h"
 #include "Pipeline/StageRecords.h"
+#include "Pipeline/WorkBound.h"
 
 #include <memory>
 #include <string>
@@ -34,6 +35,8 @@ struct SizedSurface : SizeReport
 {
   Status status; ///< TooLarge where more quads would be made than may
   std::shared_ptr<const PreparedSurface> surface;
+  std::size_t work =
+    WorkBound::kNoBound;    ///< that its attempts may take, where it is a part of a surface
   ResultKey key = 0;        ///< of all but guides and valences
   ResultKey starsKey = 0;   ///< see PlannedSurface
   Index sharedVertices = 0; ///< the same

@@ -5,6 +5,7 @@
 /// Documentation/Design/Recovery.md.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 
@@ -32,9 +33,13 @@ struct WorkBound
 constexpr std::size_t kMostAttempts = 20;
 
 /// faces: of the surface that is mapped; quads: that the map is made for at first.
-inline WorkBound workBound(std::size_t faces, std::size_t quads)
+/// most: for a part of a surface that is divided, see leastOfPart.
+inline WorkBound workBound(
+  std::size_t faces, std::size_t quads, std::size_t most = WorkBound::kNoBound)
 {
-  constexpr std::size_t kOfAnyRun = 8000000;
+  // A coarse level has about so many faces, on which several maps are made.
+  constexpr std::size_t kFacesOfCoarse = 2000;
+  constexpr std::size_t kOfCoarseFace = 4000;
   constexpr std::size_t kOfFace = 4;
   constexpr std::size_t kOfQuad = 100;
   constexpr std::size_t kMapsOverRun = 2;
@@ -42,13 +47,22 @@ inline WorkBound workBound(std::size_t faces, std::size_t quads)
   constexpr std::size_t kAttemptOfFace = 1;
   constexpr std::size_t kAttemptOfQuad = 20;
   WorkBound bound;
-  bound.work = kOfAnyRun + kOfFace * faces + kOfQuad * quads;
+  bound.work = std::min(
+    most, kOfCoarseFace * std::min(faces, kFacesOfCoarse) + kOfFace * faces + kOfQuad * quads);
   bound.ofMap = kMapsOverRun * bound.work;
   bound.attempts = kMostAttempts;
   bound.attemptsOfLastResort = kAttemptsOfLastResort;
   bound.workOfLastResort = bound.work / 2;
   bound.ofAttempt = kAttemptOfFace * faces + kAttemptOfQuad * quads;
   return bound;
+}
+
+/// What a part of a surface may take at least, however much others have taken: an eighth of what it could as a surface
+/// of its own, which is a map or two.
+inline std::size_t leastOfPart(std::size_t faces, std::size_t quads)
+{
+  constexpr std::size_t kPart = 8;
+  return workBound(faces, quads).work / kPart;
 }
 
 } // namespace quadrille

@@ -631,6 +631,60 @@ TEST(Pipeline, ComponentsWithoutAMapAreLeftOutOnRequest)
     << some.notices.front();
 }
 
+/// A fat torus whose first map fails (see CoarseLevelThatHasAllVerticesGetsMore), and a sphere beside it.
+TEST(Pipeline, AFailureStaysInItsComponent)
+{
+  const Mesh torus = test::torus(64, 64, 1, 0.9), sphere = test::sphere(4);
+  RemeshOptions options;
+  options.edgeLength = 1.5;
+  options.smallDetails = SmallDetails::Resolve;
+  const RemeshResult alone = remesh(test::toInput(torus), options);
+  ASSERT_TRUE(alone.status.ok()) << alone.status.message;
+  ASSERT_GT(alone.attempts.size(), 1U); // else the case is none any more
+
+  const Mesh both = test::disjointUnion(torus, sphere, Vector3(6, 0, 0));
+  options.threads = 2;
+  const RemeshResult result = remesh(test::toInput(both), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
+  EXPECT_EQ(result.certificate.triangles, result.surface.mesh.faceCount());
+  EXPECT_EQ(result.failed.components, 0U);
+  EXPECT_EQ(topologyOf(result.quads).euler, 2);
+  EXPECT_TRUE(topologyOf(result.quads).oriented);
+  EXPECT_EQ(topologyOf(result.quads).boundaryEdges, 0U);
+  // The whole, the torus, the sphere: that one once.
+  EXPECT_EQ(std::count(result.attempts.begin(), result.attempts.end(), "first"), 3);
+  EXPECT_EQ(result.attempts.back(), "first");
+  EXPECT_EQ(result.tries.taken[static_cast<std::size_t>(Try::Components)], 1U);
+  EXPECT_EQ(result.tries.led[static_cast<std::size_t>(Try::Components)], 1U);
+
+  EXPECT_EQ(validate(result.surface.mesh), "");
+  EXPECT_EQ(result.surface.components, 2U);
+  EXPECT_EQ(result.uv.size(), result.surface.mesh.halfEdgeCount());
+  EXPECT_EQ(validate(result.coarse.mesh), "");
+  for (std::size_t p = 0; p < result.quads.points.size(); ++p)
+  {
+    Vector3 onFace = Vector3::Zero();
+    for (Index k = 0; k < 3; ++k)
+    {
+      const Index v = result.surface.mesh.origin[3 * result.quads.sourceFace[p] + k];
+      onFace += result.quads.sourceWeights[p][k] * result.surface.mesh.position[v];
+    }
+    EXPECT_LT((onFace - result.quads.points[p]).norm(), 1e-9) << p;
+  }
+  for (Index v = 0; v < result.coarse.mesh.vertexCount(); ++v)
+  {
+    EXPECT_EQ(
+      result.coarse.mesh.position[v], result.surface.mesh.position[result.coarse.fineVertex[v]]);
+  }
+
+  options.threads = 1;
+  const RemeshResult again = remesh(test::toInput(both), options);
+  EXPECT_EQ(again.quads.points, result.quads.points);
+  EXPECT_EQ(again.quads.quads, result.quads.quads);
+  EXPECT_EQ(again.mapKey, result.mapKey);
+}
+
 TEST(Pipeline, ASurfaceWithoutAMapTellsThePlaces)
 {
   SurfaceInput input = test::toInput(test::sphere(3));
