@@ -215,22 +215,6 @@ Failure remeshParts(std::vector<SizedPart> parts, std::size_t work, Settled& set
     RemeshResult made;
     Settled own = settleDetails(part.sized, options, asked.store);
     remeshSettled(own, part.sized, { asked.frame, options, asked.store, asked.quadsAlone }, made);
-    {
-      double t = 0;
-      fprintf(stderr, "part %zu/%zu comps %u share %.4f faces %u quads %zu->%zu ok %d:", i,
-        parts.size(), part.sized.surface->components, part.share,
-        part.sized.surface->mesh.faceCount(), part.sized.targetQuads, made.quads.quads.size(),
-        int(made.status.ok()));
-      for (auto& s : made.attempts)
-        fprintf(stderr, " [%s]", s.c_str());
-      for (auto& s : made.stages)
-      {
-        t += s.seconds;
-        if (s.seconds > 0.3)
-          fprintf(stderr, " %s %.1f", s.stage.c_str(), s.seconds);
-      }
-      fprintf(stderr, " = %.1f s\n", t);
-    }
     left -= std::min(left, made.work);
     append(settled.details, own.details);
     settled.decimations += own.decimations;

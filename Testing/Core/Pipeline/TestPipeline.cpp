@@ -631,17 +631,18 @@ TEST(Pipeline, ComponentsWithoutAMapAreLeftOutOnRequest)
     << some.notices.front();
 }
 
-/// A fat torus whose first map fails (see CoarseLevelThatHasAllVerticesGetsMore), and a sphere beside it.
+/// A ring whose first map fails (see RingThatTwoQuadsWouldSurroundGetsMore), and a sphere beside it.
 TEST(Pipeline, AFailureStaysInItsComponent)
 {
-  const Mesh torus = test::torus(64, 64, 1, 0.9), sphere = test::sphere(4);
+  const Mesh torus = test::torus(160, 10, 1, 0.05), sphere = test::sphere(4);
   RemeshOptions options;
-  options.edgeLength = 1.5;
-  options.smallDetails = SmallDetails::Resolve;
+  options.quads = 80;
   const RemeshResult alone = remesh(test::toInput(torus), options);
   ASSERT_TRUE(alone.status.ok()) << alone.status.message;
   ASSERT_GT(alone.attempts.size(), 1U); // else the case is none any more
 
+  options.quads.reset();
+  options.edgeLength = alone.targetEdgeLength;
   const Mesh both = test::disjointUnion(torus, sphere, Vector3(6, 0, 0));
   options.threads = 2;
   const RemeshResult result = remesh(test::toInput(both), options);

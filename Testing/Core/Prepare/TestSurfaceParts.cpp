@@ -4,6 +4,7 @@
 #include "Mesh/SurfaceParts.h"
 
 #include "Mesh/ComponentSizes.h"
+#include "Mesh/FlatSources.h"
 #include "Mesh/Topology.h"
 #include "MeshInput.h"
 #include "Prepare/Prepare.h"
@@ -24,10 +25,21 @@ namespace
 
 constexpr Index kFree = kInvalidIndex;
 
-/// Two cubes of twelve triangles, whose sides refinement flips, and a sphere.
+/// A box of twelve triangles, whose long sides refinement flips.
+Mesh longBox()
+{
+  Mesh box = test::unitCube(1);
+  for (Vector3& p : box.position.editAll())
+  {
+    p.y() *= 5;
+  }
+  return box;
+}
+
+/// Two boxes and a sphere.
 SurfaceInput threeBodies()
 {
-  const Mesh cubes = test::disjointUnion(test::unitCube(1), test::unitCube(1), Vector3(3, 0, 0));
+  const Mesh cubes = test::disjointUnion(longBox(), longBox(), Vector3(3, 0, 0));
   return test::toInput(test::disjointUnion(cubes, test::sphere(2), Vector3(8, 0, 0)));
 }
 
@@ -114,11 +126,11 @@ TEST(SurfaceParts, RequestsGoWhereTheyAreAsked)
                                 { return (a - p).squaredNorm() < (b - p).squaredNorm(); }) -
       at.begin());
   };
-  const Index atCube = nearest(Vector3(4, 1, 1)), atSphere = nearest(Vector3(8, 0, 1));
+  const Index atCube = nearest(Vector3(4, 5, 1)), atSphere = nearest(Vector3(8, 0, 1));
   whole.valenceRequests = { { std::min(atCube, atSphere), 3, kFree },
     { std::max(atCube, atSphere), 3, kFree } };
   whole.curves = { { CurveKind::Cycle, { { 8, 0, 1 }, { 8, 1, 0 }, { 9, 0, 0 } } },
-    { CurveKind::Connection, { { 3, 0, 0 }, { 4, 1, 1 } } } };
+    { CurveKind::Connection, { { 3, 0, 0 }, { 4, 5, 1 } } } };
   whole.sizes = { { Vector3(0, 0, 0), 0.1, 0.5, 0 } };
   std::vector<SurfacePart> parts = partsOf(whole);
   PreparedSurface joined = withoutElements(whole);
