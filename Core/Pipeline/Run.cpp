@@ -234,11 +234,18 @@ Failure remeshParts(std::vector<SizedPart> parts, std::size_t work, Settled& set
   return failure;
 }
 
-/// The surface in parts: whether they have quads, which are those of the result then, and otherwise why not.
-bool remeshDivided(const std::vector<Index>& failed, Settled& settled, SizedSurface& sized,
+/// The surface in parts: whether they have quads, which are those of the result then, and otherwise why not. history:
+/// of the whole.
+bool remeshDivided(const History& history, Settled& settled, SizedSurface& sized,
   const Asked& asked, JoinedParts& joined, RemeshResult& result, Failure& failure)
 {
   const RemeshOptions& options = asked.options;
+  std::vector<Index> failed;
+  if (history.attempts() > 0)
+  {
+    const Attempt& last = history.last();
+    failed = last.quads ? last.quads->failedAt : last.map->failedIn;
+  }
   countTry(Try::Components);
   failure = remeshParts(
     divide(sized, failed, options.threads), boundOf(sized).work, settled, asked, joined);
@@ -247,6 +254,14 @@ bool remeshDivided(const std::vector<Index>& failed, Settled& settled, SizedSurf
     return false;
   }
   countTryLed(Try::Components);
+  result.tries.addTaken(history.tries());
+  result.work += history.work();
+  result.replays += history.replays();
+  if (settled.run)
+  {
+    result.decimations += settled.run->levels.decimations();
+    sized.stages.add("retries", history.seconds(), 0, 0);
+  }
   result.stages = sized.stages.all();
   result.reused = sized.reused;
   sized.surface = std::make_shared<const PreparedSurface>(joined.take(result, options.threads));
@@ -263,9 +278,9 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   Failure failure;
   if (!settled.status.ok())
   {
-    const bool isDivided = options.leavesOutFailed && sized.surface->components > 1 &&
+    const bool hasQuads = options.leavesOutFailed && sized.surface->components > 1 &&
       remeshDivided({}, settled, sized, asked, joined, result, failure);
-    result.status = isDivided ? result.status : settled.status;
+    result.status = hasQuads ? result.status : settled.status;
     return;
   }
   History history = makeAttempts(settled, sized, options, asked.store, result);
@@ -275,14 +290,7 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   if (failed)
   {
     history.packMaps(sized.surface->mesh);
-    result.tries.addTaken(history.tries());
-    result.work += history.work();
-    result.replays += history.replays();
-    result.decimations += run.levels.decimations();
-    sized.stages.add("retries", history.seconds(), 0, 0);
-    const Attempt& last = history.last();
-    if (remeshDivided(last.quads ? last.quads->failedAt : last.map->failedIn, settled, sized, asked,
-          joined, result, failure))
+    if (remeshDivided(history, settled, sized, asked, joined, result, failure))
     {
       return;
     }
