@@ -3,6 +3,7 @@
 #include "Cad/CadFile.h"
 
 #include "Base/Refuse.h"
+#include "Cad/CadFormat.h"
 #include "Cad/Guarded.h"
 #include "Cad/Heal.h"
 #include "Cad/Isolated.h"
@@ -47,24 +48,6 @@ namespace quadrille
 
 namespace
 {
-
-enum class CadFormat
-{
-  Step,
-  Iges,
-  Brep
-};
-
-std::optional<CadFormat> formatOf(const std::string& path)
-{
-  std::string e = std::filesystem::path(path).extension().string();
-  std::transform(e.begin(), e.end(), e.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return e == ".stp" || e == ".step" ? std::optional(CadFormat::Step)
-    : e == ".igs" || e == ".iges"    ? std::optional(CadFormat::Iges)
-    : e == ".brep" || e == ".brp"    ? std::optional(CadFormat::Brep)
-                                     : std::nullopt;
-}
 
 constexpr std::size_t kLineOfIges = 72; // where the letter of the section is, after the text
 
@@ -548,14 +531,9 @@ double timeLimitOf(const std::string& path)
 
 } // namespace
 
-bool isCadFile(const std::string& path)
-{
-  return formatOf(path).has_value();
-}
-
 CadFile readCadFile(const std::string& path, const CadReadOptions& options)
 {
-  const std::optional<CadFormat> format = formatOf(path);
+  const std::optional<CadFormat> format = cadFormatOf(path);
   refuseIf(!format, path, ": unknown extension; CAD files are stp, step, igs, iges, brep and brp");
   const std::string damage = damageAtBegin(path, *format);
   refuseIf(!damage.empty(), path, ": ", damage);

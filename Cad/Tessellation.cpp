@@ -361,20 +361,6 @@ void check(const TessellationOptions& options)
 
 } // namespace
 
-const char* wordOf(CadEdgeKind kind)
-{
-  static constexpr std::array<const char*, 6> kWords{ "sharp", "tangent", "seam", "free", "pole",
-    "wire" };
-  return kWords[static_cast<std::size_t>(kind)];
-}
-
-const char* wordOf(CadSurfaceKind kind)
-{
-  static constexpr std::array<const char*, 11> kWords{ "plane", "cylinder", "cone", "sphere",
-    "torus", "bezier", "spline", "revolution", "extrusion", "offset", "other" };
-  return kWords[static_cast<std::size_t>(kind)];
-}
-
 CadSurface tessellate(const CadShape& shape, const TessellationOptions& options)
 {
   check(options);

@@ -5,6 +5,7 @@
 
   test_cad.py QUADRILLE CAD_SHAPES CAD_MEASURE WORK_DIR
 """
+import os
 import pathlib
 import subprocess
 import sys
@@ -45,6 +46,41 @@ def area(points, quads):
     a, b, c, d = (points[quads[:, i]] for i in range(4))
     return (numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) +
             numpy.linalg.norm(numpy.cross(c - a, d - a), axis=1)).sum() / 2
+
+
+class Module(unittest.TestCase):
+    """Open CASCADE is in a module of its own, which is opened with the first CAD file."""
+
+    def test_nothing_is_linked_with_it(self):
+        listed = subprocess.run(["ldd", COMMAND], capture_output=True, text=True, check=True).stdout
+        self.assertIn("libQuadrilleFilters", listed)
+        self.assertNotIn("libTK", listed)
+
+    def test_it_is_opened_with_the_first_cad_file(self):
+        code = ("import quadrille, sys; has = lambda: 'libTKernel' in open('/proc/self/maps').read();"
+                "quadrille.remesh(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), quads=30);"
+                "before = has(); quadrille.read_cad(sys.argv[1]); print(before, has())")
+        result = subprocess.run([sys.executable, "-c", code, FOLDER / "named.step"], capture_output=True, text=True)
+        self.assertEqual(result.stdout.split(), ["False", "True"], result.stderr)
+
+    def test_a_missing_module_is_told(self):
+        listed = subprocess.run(["ldd", COMMAND], capture_output=True, text=True, check=True).stdout
+        library = next(line.split()[2] for line in listed.splitlines() if "libQuadrilleFilters" in line)
+        alone = FOLDER / "alone"
+        alone.mkdir(exist_ok=True)
+        (alone / pathlib.Path(library).name).unlink(missing_ok=True)
+        (alone / pathlib.Path(library).name).symlink_to(library)
+
+        def run_alone(source, target):
+            return subprocess.run([COMMAND, source, target, "--quads", "100"], capture_output=True, text=True,
+                                  env=dict(os.environ, LD_LIBRARY_PATH=str(alone)))
+
+        result = run_alone(FOLDER / "named.step", FOLDER / "alone.inp")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("QuadrilleCad.so, which cannot be loaded", result.stderr)
+        self.assertIn("Install Quadrille again", result.stderr)
+        (FOLDER / "plain.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.assertEqual(run_alone(FOLDER / "plain.obj", FOLDER / "plain.vtp").returncode, 0)
 
 
 class Cad(unittest.TestCase):
