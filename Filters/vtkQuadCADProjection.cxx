@@ -5,6 +5,7 @@
 #include "Cad/Calls.h"
 #include "Common/NewArray.h"
 #include "Files/CadData.h"
+#include "Files/CadNames.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -75,8 +76,9 @@ void writePlaces(const std::vector<CadPlace>& places, vtkPointSet* output)
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(static_cast<vtkIdType>(count));
-  const auto kinds = quadrille::newArray<vtkUnsignedCharArray>("CadPlace", 1, count);
-  const auto ids = quadrille::newArray<vtkIntArray>("CadId", 1, count);
+  const auto kinds =
+    quadrille::newArray<vtkUnsignedCharArray>(quadrille::arrays::kCadPlace, 1, count);
+  const auto ids = quadrille::newArray<vtkIntArray>(quadrille::arrays::kCadId, 1, count);
   const auto normals = quadrille::newArray<vtkDoubleArray>("CadNormal", 3, count);
   const auto curvatures = quadrille::newArray<vtkDoubleArray>("CadCurvature", 2, count);
   for (std::size_t i = 0; i < count; ++i)

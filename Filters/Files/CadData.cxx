@@ -7,6 +7,7 @@
 #include "Common/NewArray.h"
 #include "Convert/PolyData.h"
 #include "ElementGrids/Elements.h"
+#include "Files/CadNames.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -22,6 +23,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -111,6 +114,62 @@ void addCellArrays(const CadPart& part, CadFollow follow, vtkPolyData* data)
   }
 }
 
+vtkSmartPointer<vtkStringArray> stringArray(
+  const char* name, const std::vector<std::string>& values)
+{
+  auto array = newArray<vtkStringArray>(name, 1, values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    array->SetValue(static_cast<vtkIdType>(i), values[i]);
+  }
+  return array;
+}
+
+/// Names of edges and vertices, and where these are, see CadNames.h.
+void addNames(const CadPart& part, vtkFieldData* fields)
+{
+  const CadSurface& surface = part.surface;
+  const std::size_t edges = surface.edges.size(), vertices = surface.vertexPoints.size();
+  std::map<Index, int> vertexAt;
+  const auto vertexPoints = newArray<vtkDoubleArray>(arrays::kCadVertexPoints, 3, vertices);
+  for (std::size_t v = 0; v < vertices; ++v)
+  {
+    const Index point = surface.vertexPoints[v];
+    constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+    const Vector3 place =
+      point == kInvalidIndex ? Vector3::Constant(kNowhere) : surface.points[point];
+    vertexPoints->SetTuple(static_cast<vtkIdType>(v), place.data());
+    vertexAt.emplace(point, static_cast<int>(v));
+  }
+  const auto ends = newArray<vtkIntArray>(arrays::kCadEdgeEnds, 2, edges);
+  const auto counts = newArray<vtkIntArray>(arrays::kCadEdgeCounts, 1, edges);
+  const auto points = newArray<vtkDoubleArray>(arrays::kCadEdgePoints, 3);
+  for (std::size_t e = 0; e < edges; ++e)
+  {
+    const std::vector<Index>& along = surface.edges[e].points;
+    const auto endAt = [&](Index point)
+    {
+      const auto found = vertexAt.find(point);
+      return found == vertexAt.end() ? -1 : found->second;
+    };
+    const auto edge = static_cast<vtkIdType>(e);
+    ends->SetTypedComponent(edge, 0, along.empty() ? -1 : endAt(along.front()));
+    ends->SetTypedComponent(edge, 1, along.empty() ? -1 : endAt(along.back()));
+    counts->SetValue(edge, static_cast<int>(along.size()));
+    for (const Index point : along)
+    {
+      points->InsertNextTuple(surface.points[point].data());
+    }
+  }
+  const auto edgeNames = stringArray(arrays::kCadEdgeNames, part.edgeNames);
+  const auto vertexNames = stringArray(arrays::kCadVertexNames, part.vertexNames);
+  for (vtkAbstractArray* array : std::initializer_list<vtkAbstractArray*>{
+         edgeNames, vertexNames, ends, counts, points, vertexPoints })
+  {
+    fields->AddArray(array);
+  }
+}
+
 void addFieldArrays(const CadPart& part, const std::string& unit,
   const TessellationOptions& options, CadFollow follow, vtkFieldData* fields)
 {
@@ -130,6 +189,7 @@ void addFieldArrays(const CadPart& part, const std::string& unit,
     names->SetValue(static_cast<vtkIdType>(f), nameOfFace(part, f));
     kinds->SetValue(static_cast<vtkIdType>(f), wordOf(part.surface.surfaceKinds[f]));
   }
+  addNames(part, fields);
   const auto unitOfFile = newArray<vtkStringArray>("CadUnitOfFile", 1, 1);
   unitOfFile->SetValue(0, unit);
   for (vtkAbstractArray* array :

@@ -61,10 +61,10 @@ std::string joined(const std::vector<std::string>& lines)
 
 } // namespace
 
-TEST(Read, NamesOfFacesAreThoseOfTheFile)
+TEST(Read, NamesAreThoseOfTheFile)
 {
   const std::string path = testFile("named.step");
-  writeStep(boxWithHole(), path, { { 1, "support" }, { 7, "bore" } });
+  writeStep(boxWithHole(), path, namesOfBox());
   const CadFile file = readCadFile(path);
   ASSERT_EQ(file.parts.size(), 1U);
   const CadPart& part = file.parts.front();
@@ -78,6 +78,11 @@ TEST(Read, NamesOfFacesAreThoseOfTheFile)
   EXPECT_EQ(std::count(part.faceNames.begin(), part.faceNames.end(), "support"), 1);
   EXPECT_EQ(std::count(part.faceNames.begin(), part.faceNames.end(), "bore"), 1);
   EXPECT_EQ(std::count(part.faceNames.begin(), part.faceNames.end(), ""), 5);
+  EXPECT_EQ(std::count(part.edgeNames.begin(), part.edgeNames.end(), "upper rim"), 1);
+  EXPECT_EQ(std::count(part.edgeNames.begin(), part.edgeNames.end(), "front edge"), 1);
+  EXPECT_EQ(std::count(part.edgeNames.begin(), part.edgeNames.end(), ""), 13);
+  EXPECT_EQ(std::count(part.vertexNames.begin(), part.vertexNames.end(), "origin"), 1);
+  EXPECT_EQ(std::count(part.vertexNames.begin(), part.vertexNames.end(), ""), 9);
 }
 
 TEST(Read, InstancesArePartsAtTheirPlaces)
