@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -109,6 +110,19 @@ TEST(Read, InstancesArePartsAtTheirPlaces)
   EXPECT_EQ(both.shape.faceCount(), 14U);
   EXPECT_EQ(both.faceNames.front(), "left/FACE_1");
   EXPECT_EQ(both.faceNames.back(), "right/FACE_7");
+  // The plate is tessellated once, so that both have the same triangles there, too; and it is closed.
+  std::array<std::size_t, 14> triangles{};
+  for (const Index face : both.surface.faceOf)
+  {
+    ++triangles.at(face);
+  }
+  for (std::size_t f = 0; f < 7; ++f)
+  {
+    EXPECT_GT(triangles[f], 0U);
+    EXPECT_EQ(triangles[f], triangles[f + 7]);
+  }
+  EXPECT_EQ(meshEdges(both.surface).open, 0U);
+  EXPECT_EQ(area(both.surface), area(tessellate(both.shape))); // made again from the shape
 }
 
 TEST(Read, UnitsAreToldAndCoordinatesAreInMillimetres)
