@@ -3,6 +3,7 @@
 #include "Cad/CadFile.h"
 
 #include "Base/Refuse.h"
+#include "Cad/CadFormat.h"
 #include "Cad/Guarded.h"
 #include "Cad/Heal.h"
 #include "Cad/Isolated.h"
@@ -37,6 +38,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -47,24 +49,6 @@ namespace quadrille
 
 namespace
 {
-
-enum class CadFormat
-{
-  Step,
-  Iges,
-  Brep
-};
-
-std::optional<CadFormat> formatOf(const std::string& path)
-{
-  std::string e = std::filesystem::path(path).extension().string();
-  std::transform(e.begin(), e.end(), e.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return e == ".stp" || e == ".step" ? std::optional(CadFormat::Step)
-    : e == ".igs" || e == ".iges"    ? std::optional(CadFormat::Iges)
-    : e == ".brep" || e == ".brp"    ? std::optional(CadFormat::Brep)
-                                     : std::nullopt;
-}
 
 constexpr std::size_t kLineOfIges = 72; // where the letter of the section is, after the text
 
@@ -204,11 +188,7 @@ public:
     const TopLoc_Location& location, std::optional<std::array<double, 3>> colour,
     const TopoDS_Shape& shape)
   {
-    const HealedShape healed = healShape(shape);
-    for (const std::string& repair : healed.repairs)
-    {
-      file_.notices.push_back((name.empty() ? "" : name + ": ") + repair);
-    }
+    const HealedShape& healed = healedShape(shape, name);
     const auto data = std::make_shared<const CadShape::Data>(healed.shape.Moved(location));
     if (data->faces.IsEmpty())
     {
@@ -232,6 +212,23 @@ public:
   }
 
 private:
+  /// Instances of a shape are healed once, and have what is healed in common.
+  const HealedShape& healedShape(const TopoDS_Shape& shape, const std::string& name)
+  {
+    const auto known = std::find_if(
+      healed_.begin(), healed_.end(), [&](const auto& one) { return one.first.IsEqual(shape); });
+    if (known != healed_.end())
+    {
+      return known->second;
+    }
+    healed_.emplace_back(shape, healShape(shape));
+    for (const std::string& repair : healed_.back().second.repairs)
+    {
+      file_.notices.push_back((name.empty() ? "" : name + ": ") + repair);
+    }
+    return healed_.back().second;
+  }
+
   void walk(const TDF_Label& label, const std::string& instance, const TopLoc_Location& location,
     std::optional<std::array<double, 3>> colour)
   {
@@ -333,6 +330,7 @@ private:
   Handle(XCAFDoc_ShapeTool) shapes_;
   Handle(XCAFDoc_ColorTool) colours_;
   std::set<std::string> names_;
+  std::deque<std::pair<TopoDS_Shape, HealedShape>> healed_; ///< by the shape before
 };
 
 //------------------------------------------------------------------------------
@@ -507,6 +505,36 @@ CadPart joinedParts(const CadFile& file)
   return all;
 }
 
+/// Of the parts in their order. Instances of a shape get the triangles of the first one, at their places.
+void tessellateParts(const TessellationOptions& options, std::vector<CadPart>& parts)
+{
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const TopoDS_Shape& shape = parts[i].shape.data()->shape;
+    const auto first = std::find_if(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i),
+      [&](const CadPart& part)
+      {
+        const TopoDS_Shape& other = part.shape.data()->shape;
+        return other.IsPartner(shape) && other.Orientation() == shape.Orientation();
+      });
+    const bool isInstance = first != parts.begin() + static_cast<std::ptrdiff_t>(i);
+    const gp_Trsf move = isInstance
+      ? (shape.Location() * first->shape.data()->shape.Location().Inverted()).Transformation()
+      : gp_Trsf();
+    if (!isInstance || move.IsNegative())
+    {
+      parts[i].surface = tessellate(parts[i].shape, options);
+      continue;
+    }
+    parts[i].surface = first->surface;
+    for (Vector3& p : parts[i].surface.points)
+    {
+      const gp_Pnt moved = gp_Pnt(p.x(), p.y(), p.z()).Transformed(move);
+      p = { moved.X(), moved.Y(), moved.Z() };
+    }
+  }
+}
+
 /// In this process.
 CadFile readHere(const std::string& path, CadFormat format, const CadReadOptions& options)
 {
@@ -526,9 +554,9 @@ CadFile readHere(const std::string& path, CadFormat format, const CadReadOptions
     CadPart all = joinedParts(file);
     file.parts = { std::move(all) };
   }
-  for (CadPart& part : file.parts)
+  tessellateParts(options.tessellation, file.parts);
+  for (const CadPart& part : file.parts)
   {
-    part.surface = tessellate(part.shape, options.tessellation);
     for (const std::string& notice : part.surface.notices)
     {
       file.notices.push_back(part.name + ": " + notice);
@@ -548,14 +576,9 @@ double timeLimitOf(const std::string& path)
 
 } // namespace
 
-bool isCadFile(const std::string& path)
-{
-  return formatOf(path).has_value();
-}
-
 CadFile readCadFile(const std::string& path, const CadReadOptions& options)
 {
-  const std::optional<CadFormat> format = formatOf(path);
+  const std::optional<CadFormat> format = cadFormatOf(path);
   refuseIf(!format, path, ": unknown extension; CAD files are stp, step, igs, iges, brep and brp");
   const std::string damage = damageAtBegin(path, *format);
   refuseIf(!damage.empty(), path, ": ", damage);

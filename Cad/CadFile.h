@@ -49,9 +49,6 @@ struct CadReadOptions
   TessellationOptions tessellation;
 };
 
-/// Whether the extension is one of stp, step, igs, iges, brep and brp, in either case.
-bool isCadFile(const std::string& path);
-
 /// In a process of its own, so that a file on which Open CASCADE ends, or does not end, does no harm. Throws
 /// InvalidInput, which names the file and what is wrong.
 CadFile readCadFile(const std::string& path, const CadReadOptions& options = {});

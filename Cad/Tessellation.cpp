@@ -17,10 +17,12 @@
 #include <TopExp_Explorer.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Vertex.hxx>
 
 #include <algorithm>
@@ -155,7 +157,43 @@ private:
     parameters.Deflection = surface_.chordError;
     parameters.Angle = options_.angle;
     parameters.InParallel = Standard_False; // signals of damaged data come to this thread
-    const BRepMesh_IncrementalMesh mesher(data_.shape, parameters);
+    for (const TopoDS_Shape& shape : shapesToMesh())
+    {
+      const BRepMesh_IncrementalMesh mesher(shape, parameters);
+    }
+  }
+
+  /// Of an assembly, which has instances that share a shape, each shape once without its place, where no two of them
+  /// share an edge; else the shape as a whole, as the triangles of all faces at an edge are made together.
+  std::vector<TopoDS_Shape> shapesToMesh() const
+  {
+    TopTools_IndexedMapOfShape shapes, edges;
+    int instances = 0, edgesOfShapes = 0;
+    for (TopoDS_Iterator at(data_.shape); data_.shape.ShapeType() == TopAbs_COMPOUND && at.More();
+         at.Next())
+    {
+      const TopoDS_Shape shape = at.Value().Located(TopLoc_Location()).Oriented(TopAbs_FORWARD);
+      const bool isNew = shapes.FindIndex(shape) == 0;
+      shapes.Add(shape);
+      ++instances;
+      if (isNew)
+      {
+        TopTools_IndexedMapOfShape own;
+        TopExp::MapShapes(shape, TopAbs_EDGE, own);
+        TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+        edgesOfShapes += own.Extent();
+      }
+    }
+    if (instances == shapes.Extent() || edges.Extent() != edgesOfShapes)
+    {
+      return { data_.shape };
+    }
+    std::vector<TopoDS_Shape> once;
+    for (int i = 1; i <= shapes.Extent(); ++i)
+    {
+      once.push_back(shapes(i));
+    }
+    return once;
   }
 
   Index addPoint(const gp_XYZ& p)
@@ -360,20 +398,6 @@ void check(const TessellationOptions& options)
 }
 
 } // namespace
-
-const char* wordOf(CadEdgeKind kind)
-{
-  static constexpr std::array<const char*, 6> kWords{ "sharp", "tangent", "seam", "free", "pole",
-    "wire" };
-  return kWords[static_cast<std::size_t>(kind)];
-}
-
-const char* wordOf(CadSurfaceKind kind)
-{
-  static constexpr std::array<const char*, 11> kWords{ "plane", "cylinder", "cone", "sphere",
-    "torus", "bezier", "spline", "revolution", "extrusion", "offset", "other" };
-  return kWords[static_cast<std::size_t>(kind)];
-}
 
 CadSurface tessellate(const CadShape& shape, const TessellationOptions& options)
 {

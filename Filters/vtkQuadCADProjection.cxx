@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadCADProjection.h"
 
-#include "Cad/Placement.h"
-#include "Cad/VertexNodes.h"
+#include "Cad/Calls.h"
+#include "Common/NewArray.h"
 #include "Files/CadData.h"
+#include "Files/CadNames.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -69,26 +70,17 @@ bool isFirstOrder(vtkPointSet* data)
   return data->GetMaxCellSize() <= 4;
 }
 
-template <class Array>
-vtkSmartPointer<Array> named(const char* name, std::size_t count, int components = 1)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  return array;
-}
-
 void writePlaces(const std::vector<CadPlace>& places, vtkPointSet* output)
 {
   const std::size_t count = places.size();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(static_cast<vtkIdType>(count));
-  const auto kinds = named<vtkUnsignedCharArray>("CadPlace", count);
-  const auto ids = named<vtkIntArray>("CadId", count);
-  const auto normals = named<vtkDoubleArray>("CadNormal", count, 3);
-  const auto curvatures = named<vtkDoubleArray>("CadCurvature", count, 2);
+  const auto kinds =
+    quadrille::newArray<vtkUnsignedCharArray>(quadrille::arrays::kCadPlace, 1, count);
+  const auto ids = quadrille::newArray<vtkIntArray>(quadrille::arrays::kCadId, 1, count);
+  const auto normals = quadrille::newArray<vtkDoubleArray>("CadNormal", 3, count);
+  const auto curvatures = quadrille::newArray<vtkDoubleArray>("CadCurvature", 2, count);
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto id = static_cast<vtkIdType>(i);
@@ -123,19 +115,20 @@ int vtkQuadCADProjection::FillInputPortInformation(int, vtkInformation* info)
 void vtkQuadCADProjection::Project(vtkPointSet* input, vtkPointSet* output)
 {
   output->ShallowCopy(input);
+  const quadrille::CadCalls& cad = quadrille::cadCalls();
   const quadrille::CadSource source = quadrille::cadSource(input->GetFieldData());
   quadrille::PlacementOptions options;
   options.reach = this->Reach;
   options.tangentEdges = source.tangentEdges;
   const std::vector<Vector3> before = pointsOf(input);
-  const quadrille::CadSurface surface = quadrille::tessellate(source.shape, source.options);
-  std::vector<CadPlace> places = quadrille::placeOnShape(source.shape, surface, before, options);
+  const quadrille::CadSurface surface = cad.tessellate(source.shape, source.options);
+  std::vector<CadPlace> places = cad.placeOnShape(source.shape, surface, before, options);
   const std::vector<std::array<quadrille::Index, 4>> quads = cornersOf(input);
   if (isFirstOrder(input)) // else nodes between the corners would have to follow
   {
-    quadrille::takeVertices(source.shape, surface, quads, places);
+    cad.takeVertices(source.shape, surface, quads, places);
   }
-  quadrille::keepQuads(quads, before, places);
+  cad.keepQuads(quads, before, places);
   writePlaces(places, output);
   this->NodesOnGeometry = 0;
   for (const CadPlace& place : places)
@@ -145,8 +138,8 @@ void vtkQuadCADProjection::Project(vtkPointSet* input, vtkPointSet* output)
   this->NodesOffGeometry = static_cast<vtkIdType>(places.size()) - this->NodesOnGeometry;
   vtkNew<vtkFieldData> fields; // of its own, whatever a shallow copy shares
   fields->ShallowCopy(input->GetFieldData());
-  const auto on = named<vtkIdTypeArray>("NodesOnGeometry", 1);
-  const auto off = named<vtkIdTypeArray>("NodesOffGeometry", 1);
+  const auto on = quadrille::newArray<vtkIdTypeArray>("NodesOnGeometry", 1, 1);
+  const auto off = quadrille::newArray<vtkIdTypeArray>("NodesOffGeometry", 1, 1);
   on->SetValue(0, this->NodesOnGeometry);
   off->SetValue(0, this->NodesOffGeometry);
   fields->AddArray(on);

@@ -8,6 +8,7 @@
 #include "Export/MshWriter.h"
 #include "Export/OutputFile.h"
 #include "Export/SurfaceWriters.h"
+#include "Files/CadNames.h"
 #include "Files/MeshFiles.h"
 
 #include "vtkErrorCode.h"
@@ -148,8 +149,18 @@ void vtkQuadMeshWriter::WriteElements(vtkDataSet* mesh, const std::string& path)
   const ProgressCallback told = polling.callback();
   const PatchSource patches =
     patchesOfFormat(patchSource(mesh, this->PatchArrayName), extension, this->FileDetails);
-  const ElementMesh elements = readElements(mesh, patches, notices);
+  ElementMesh elements = readElements(mesh, patches, notices);
+  const bool hasCurves = extension != "obj" && extension != "ply" && extension != "stl";
+  if (hasCurves)
+  {
+    readCadNames(mesh, elements);
+  }
   const MeshSets sets = setsOfFormat(elements, patches, extension);
+  const std::string missing = hasCurves ? cadNamesWithoutSet(mesh, sets) : "";
+  if (!missing.empty())
+  {
+    notices.push_back(missing);
+  }
   if (extension == "inp")
   {
     add(writeInp(elements, sets, path,

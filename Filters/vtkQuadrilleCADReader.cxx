@@ -3,6 +3,8 @@
 #include "vtkQuadrilleCADReader.h"
 
 #include "Base/Error.h"
+#include "Cad/CadFormat.h"
+#include "Cad/Calls.h"
 #include "Files/CadData.h"
 
 #include "vtkCompositeDataSet.h"
@@ -41,7 +43,7 @@ vtkQuadrilleCADReader::~vtkQuadrilleCADReader() = default;
 //------------------------------------------------------------------------------
 int vtkQuadrilleCADReader::CanReadFile(const char* name)
 {
-  return name && quadrille::isCadFile(name) ? 1 : 0;
+  return name && quadrille::cadFormatOf(name) ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -104,7 +106,7 @@ void vtkQuadrilleCADReader::Read()
     {
       throw quadrille::InvalidInput("no file is named: set FileName");
     }
-    this->Found->file = quadrille::readCadFile(this->FileName, options);
+    this->Found->file = quadrille::cadCalls().readCadFile(this->FileName, options);
     this->Found->stamp = stamp;
   }
   catch (const std::bad_alloc&)

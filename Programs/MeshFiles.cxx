@@ -17,6 +17,7 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
 #include <vtkQuadMeshWriter.h>
+#include <vtkQuadNamedSizes.h>
 #include <vtkQuadrilleFileReader.h>
 #include <vtkQuadrilleOFFReader.h>
 #include <vtkQuadrillePLYReader.h>
@@ -161,6 +162,22 @@ vtkSmartPointer<vtkPolyData> readObj(const std::string& path)
 bool canWrite(const std::string& path)
 {
   return vtkQuadMeshWriter::CanWriteFile(path.c_str());
+}
+
+vtkSmartPointer<vtkPolyData> withNamedSizes(
+  const vtkSmartPointer<vtkPolyData>& surface, const std::string& path, const std::string& sizes)
+{
+  vtkNew<vtkQuadNamedSizes> filter;
+  const ErrorCollector errors(filter);
+  const ErrorCollector executiveErrors(filter->GetExecutive());
+  filter->SetSizes(sizes.c_str());
+  filter->SetInputData(surface);
+  filter->Update();
+  if (*filter->GetOutcomeText() != '\0')
+  {
+    throw FileError(path + ": " + filter->GetOutcomeText());
+  }
+  return vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
 }
 
 std::string writtenExtensions()

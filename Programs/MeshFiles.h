@@ -33,6 +33,10 @@ bool canWriteElements(const std::string& path);
 /// Reads ply, obj, stl, off, vtp or vtk. threads: 0: all. Throws FileError.
 vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path, int threads = 0);
 
+/// The surface with sizes by name, see vtkQuadNamedSizes. Throws FileError.
+vtkSmartPointer<vtkPolyData> withNamedSizes(
+  const vtkSmartPointer<vtkPolyData>& surface, const std::string& path, const std::string& sizes);
+
 /// Writes to a temporary file beside the target and renames it, so that a file of that name is always
 /// whole. Returns what the user should know, one sentence a line. Throws FileError.
 /// mesh: a vtkPolyData, or a vtkUnstructuredGrid; of second order where canWriteElements(path).

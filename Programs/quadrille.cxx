@@ -98,11 +98,12 @@ struct Request
   vtkNew<vtkQuadMeshWriter> writer;
   WrapRequest wrap;
   CadRun cad;
+  std::string sizes; ///< by name, a line each
   ElementRun elements;
   bool quiet = false;
 };
 
-void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
+void addSizes(CommandOptions& options, vtkQuadRemesh* filter, std::string& byName)
 {
   constexpr double kSmallestLength = 1e-300;
   options.beginGroup("size of the quads (at most one):");
@@ -145,6 +146,11 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
   options.addNumber(
     "largest-size", "R", { 1, 1000 }, [filter](double size) { filter->SetLargestSize(size); },
     "the most that both leave, over the target edge length (default 1)");
+  options.addTexts(
+    "size", "NAME=R", [&byName](const std::string& size) { byName += size + "\n"; },
+    "edges are R times as long on the faces of this name (cell array PatchNames, or of a CAD "
+    "file), "
+    "on its CAD edges and vertices; * stands for any letters; may be given several times");
 }
 
 /// So many numbers with commas between them; none where it is something else.
@@ -627,9 +633,11 @@ ExitCode execute(RemeshRun& run, Request& request)
   const Clock::time_point start = Clock::now();
   const RunFiles& files = request.files;
   const bool isCad = CadRun::isCad(files.input);
-  const vtkSmartPointer<vtkPolyData> input = isCad
+  const vtkSmartPointer<vtkPolyData> read = isCad
     ? request.cad.read(run, files.input)
     : readGuarded(files.input, run.filter()->GetNumberOfThreads());
+  const vtkSmartPointer<vtkPolyData> input =
+    request.sizes.empty() ? read : withNamedSizes(read, files.input, request.sizes);
   RunTimes times;
   times.read = secondsSince(start);
 
@@ -725,7 +733,7 @@ ExitCode runCommand(int argc, char* argv[])
   RemeshRun run;
   Request request;
   CommandOptions options(kIntroduction, kClosing);
-  addSizes(options, run.filter());
+  addSizes(options, run.filter(), request.sizes);
   addShape(options, run.filter());
   addFinish(options, run.filter());
   request.cad.addOptions(options);

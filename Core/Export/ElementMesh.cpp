@@ -68,11 +68,26 @@ void requireProperties(const ElementMesh& mesh, std::size_t e)
   }
 }
 
+void requireNames(const ElementMesh& mesh)
+{
+  for (const Index curve : mesh.curveOf)
+  {
+    refuseIf(curve != kInvalidIndex && curve >= mesh.curveNames.size(), "a side is of curve ",
+      curve, ", but there are ", mesh.curveNames.size());
+  }
+  for (const NamedNode& named : mesh.namedNodes)
+  {
+    refuseIf(named.node >= mesh.nodes.size(), "node ", named.node, " has the name '", named.name,
+      "', but there are ", mesh.nodes.size());
+  }
+}
+
 } // namespace
 
 void requireValid(const ElementMesh& mesh)
 {
   requireSizes(mesh);
+  requireNames(mesh);
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
   {
     pollNowAndThen(i);

@@ -26,6 +26,13 @@ struct MeshPatch
     name; ///< as the user wrote it; empty: it has none. Patches with the same name are one set
 };
 
+/// A node with a name of its own, as a vertex of a CAD file.
+struct NamedNode
+{
+  Index node = 0;
+  std::string name;
+};
+
 struct ElementMesh
 {
   std::vector<Vector3> nodes;
@@ -34,7 +41,13 @@ struct ElementMesh
   std::vector<MeshPatch> patches;         ///< at least one where there are elements
   std::vector<Index> patchOf;             ///< #E, in `patches`; empty: all are of the first one
   std::vector<std::uint8_t> featureEdges; ///< #E or empty; bit i: side i is on a feature
-  std::vector<double> thickness;          ///< #E or empty; > 0, in units of the nodes
+  std::vector<std::string>
+    curveNames; ///< of curves with names of their own, as edges of a CAD file
+  /// #E * 4 or empty: of which one of curveNames side i of element e is, kInvalidIndex: of none. Those of the boundary
+  /// and of features count; one of the two sides of an edge is enough.
+  std::vector<Index> curveOf;
+  std::vector<NamedNode> namedNodes;
+  std::vector<double> thickness; ///< #E or empty; > 0, in units of the nodes
   std::vector<Vector3>
     axis; ///< #E or empty; unit vectors in the elements' planes, zero: the element has none
 

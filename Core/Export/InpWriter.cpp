@@ -377,7 +377,7 @@ InpSetNames uniqueNames(const MeshSets& sets, SetNames& names)
   names.unique({ "NALL", "EALL" });
   InpSetNames result;
   result.boundaries = names.uniqueOf(sets.boundaries, kRoomForSides);
-  result.curves = names.uniqueOf(sets.curves);
+  result.curves = names.uniqueOf(sets.curves, kRoomForSides);
   result.corners = names.uniqueOf(sets.corners);
   // The generated names come first, so that a patch cannot take one of them.
   result.patches = names.uniqueOf(sets.patches);
@@ -402,6 +402,10 @@ void writeInpSets(const MeshSets& sets, const InpSetNames& names, bool isPlane, 
   {
     file << "*NSET, NSET=" << names.curves[i] << '\n';
     writeInpIds(file, nodesOf(sets, sets.curves[i]));
+    if (sets.curves[i].isNamed)
+    {
+      writeInpSides(sidesOf(sets, sets.curves[i]), names.curves[i], isPlane, dialect, file);
+    }
   }
   for (std::size_t i = 0; i < sets.corners.size(); ++i)
   {

@@ -172,6 +172,7 @@ public:
     trace(
       "CURVE_", sets.curves, [this](Index h) { return edges_.isFeature(h) && edges_.isLowest(h); },
       [this](Index h, Index node) { return nextOnFeature(h, node); });
+    gatherNamed();
   }
 
 private:
@@ -184,6 +185,18 @@ private:
   };
 
   bool isInNetwork(Index h) const { return edges_.isBoundary(h) || edges_.isFeature(h); }
+
+  /// Which of the mesh's curveNames the edge is of.
+  Index nameOf(Index h) const
+  {
+    if (mesh_.curveOf.empty())
+    {
+      return kInvalidIndex;
+    }
+    const Index twin = edges_.twin(h);
+    return mesh_.curveOf[h] != kInvalidIndex || twin == kInvalidIndex ? mesh_.curveOf[h]
+                                                                      : mesh_.curveOf[twin];
+  }
 
   void collect()
   {
@@ -242,15 +255,26 @@ private:
 
   void findCorners()
   {
-    for (const auto& [node, at] : at_) // by ids of nodes
+    std::map<Index, std::string> names; // by ids of nodes
+    for (const auto& [node, at] : at_)
     {
-      const bool isEnd =
-        at.count != 2 || edges_.isBoundary(at.first) != edges_.isBoundary(at.second);
+      const bool isEnd = at.count != 2 ||
+        edges_.isBoundary(at.first) != edges_.isBoundary(at.second) ||
+        nameOf(at.first) != nameOf(at.second);
       if (isEnd || (bend(node, at) > kCornerOfSet && !goesStraightOn(node, at)))
       {
-        cornerOf_[node] = static_cast<Index>(sets_.corners.size());
-        sets_.corners.push_back({ "CORNER_" + std::to_string(sets_.corners.size() + 1), node });
+        names[node];
       }
+    }
+    for (const NamedNode& named : mesh_.namedNodes)
+    {
+      names[named.node] = named.name;
+    }
+    for (const auto& [node, name] : names)
+    {
+      cornerOf_[node] = static_cast<Index>(sets_.corners.size());
+      const std::string number = std::to_string(sets_.corners.size() + 1);
+      sets_.corners.push_back({ name.empty() ? "CORNER_" + number : name, node });
     }
   }
 
@@ -420,6 +444,43 @@ private:
         curves.push_back(std::move(curve));
       }
     }
+  }
+
+  /// Chains with names become sets of their own, in the order of the names; the other curves are numbered anew.
+  void gatherNamed()
+  {
+    if (mesh_.curveOf.empty())
+    {
+      return;
+    }
+    std::vector<CurveSet> named(mesh_.curveNames.size());
+    for (std::size_t c = 0; c < sets_.chains.size(); ++c)
+    {
+      const ElementSide& side = sets_.chains[c].sides.front(); // the chain ends where the name does
+      const Index name = nameOf(4 * side.element + side.side);
+      if (name != kInvalidIndex)
+      {
+        named[name].chains.push_back(static_cast<Index>(c));
+      }
+    }
+    std::vector<std::uint8_t> isNamed(sets_.chains.size(), 0);
+    for (std::size_t n = 0; n < named.size(); ++n)
+    {
+      named[n].name = mesh_.curveNames[n];
+      named[n].isNamed = true;
+      for (const Index c : named[n].chains)
+      {
+        isNamed[c] = 1;
+      }
+    }
+    eraseIf(
+      sets_.curves, [&](const CurveSet& curve) { return isNamed[curve.chains.front()] != 0; });
+    for (std::size_t i = 0; i < sets_.curves.size(); ++i)
+    {
+      sets_.curves[i].name = "CURVE_" + std::to_string(i + 1);
+    }
+    eraseIf(named, [](const CurveSet& curve) { return curve.chains.empty(); });
+    append(sets_.curves, named);
   }
 
   const ElementMesh& mesh_;

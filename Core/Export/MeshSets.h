@@ -6,7 +6,8 @@
 /// Edges of one element are boundary, marked edges between elements are features. Corners are the nodes where other
 /// than two of both meet (a feature ends, branches, or runs into the boundary), and those where a loop or curve bends
 /// by more than 40 degrees and the elements do not go on straight: not two of them at a node of the boundary, on a
-/// feature not two on each side. A round hole of few edges thus has no corners, a rectangular plate has four.
+/// feature not two on each side. A round hole of few edges thus has no corners, a rectangular plate has four. Where
+/// curves or nodes have names of their own, so are their ends and the nodes.
 #pragma once
 
 #include "Export/ElementMesh.h"
@@ -43,11 +44,12 @@ struct ElementSet
   std::vector<Index> elements; ///< ascending
 };
 
-/// A boundary loop or a feature curve.
+/// A boundary loop, a feature curve, or all edges of a name of its own.
 struct CurveSet
 {
   std::string name;
-  std::vector<Index> chains; ///< in MeshSets::chains, one after the other
+  std::vector<Index> chains; ///< in MeshSets::chains; of a loop one after the other
+  bool isNamed = false;      ///< by ElementMesh::curveNames
 };
 
 struct CornerSet
@@ -62,8 +64,10 @@ struct MeshSets
   std::vector<EdgeChain> chains;
   std::vector<CurveSet>
     boundaries; ///< BOUNDARY_1, ...: by the lowest sides of elements. Elements are on their left
-  std::vector<CurveSet> curves;   ///< CURVE_1, ...: the same; one chain each
-  std::vector<CornerSet> corners; ///< CORNER_1, ...: by ids of nodes
+  /// CURVE_1, ...: the same; one chain each. Then those with names of their own, which may have several chains, and
+  /// have chains of the boundary that are in its loop, too.
+  std::vector<CurveSet> curves;
+  std::vector<CornerSet> corners; ///< CORNER_1, ...: by ids of nodes; named ones by their name
 
   std::size_t edgeCount() const; ///< of all chains
 };

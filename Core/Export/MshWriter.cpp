@@ -106,7 +106,7 @@ private:
 
   void groupCurves()
   {
-    groupOf_.resize(sets_.chains.size());
+    groupsOf_.resize(sets_.chains.size());
     Tag group = 0;
     for (const auto* curves : { &sets_.boundaries, &sets_.curves })
     {
@@ -115,7 +115,7 @@ private:
         ++group;
         for (const Index chain : curve.chains)
         {
-          groupOf_[chain] = group;
+          groupsOf_[chain].push_back(group);
         }
       }
     }
@@ -163,7 +163,12 @@ private:
       }
       file_ << i + 1 << ' ';
       writeBox(box);
-      file_ << " 1 " << groupOf_[i] << " 2 " << startOf_[i] + 1 << " -" << endOf_[i] + 1 << '\n';
+      file_ << ' ' << groupsOf_[i].size();
+      for (const Tag group : groupsOf_[i])
+      {
+        file_ << ' ' << group;
+      }
+      file_ << " 2 " << startOf_[i] + 1 << " -" << endOf_[i] + 1 << '\n';
     }
     writeSurfaces();
     file_ << "$EndEntities\n";
@@ -363,7 +368,12 @@ private:
   void writeElementList()
   {
     const Tag quads = mesh_.elementCount();
-    file_ << "$Elements\n" << quads + sets_.edgeCount() + sets_.corners.size() << '\n';
+    Tag lines = 0;
+    for (std::size_t i = 0; i < sets_.chains.size(); ++i)
+    {
+      lines += groupsOf_[i].size() * sets_.chains[i].sides.size();
+    }
+    file_ << "$Elements\n" << quads + lines + sets_.corners.size() << '\n';
     const std::vector<Index> setOf = patchSetOfElements(mesh_, sets_);
     for (std::size_t e = 0; e < mesh_.elementCount(); ++e)
     {
@@ -374,10 +384,13 @@ private:
     Tag next = quads;
     for (std::size_t i = 0; i < sets_.chains.size(); ++i)
     {
-      for (std::size_t k = 0; k < sets_.chains[i].sides.size(); ++k)
+      for (const Tag group : groupsOf_[i]) // an element has one group here
       {
-        beginElement(++next, lineType(), groupOf_[i], i + 1);
-        writeLineNodes(sets_.chains[i], k);
+        for (std::size_t k = 0; k < sets_.chains[i].sides.size(); ++k)
+        {
+          beginElement(++next, lineType(), group, i + 1);
+          writeLineNodes(sets_.chains[i], k);
+        }
       }
     }
     for (std::size_t i = 0; i < sets_.corners.size(); ++i)
@@ -395,7 +408,7 @@ private:
   std::vector<MshPoint> points_;
   std::vector<std::size_t> startOf_, endOf_; ///< per chain, in points_
   std::vector<PhysicalGroup> groups_;
-  std::vector<Tag> groupOf_; ///< per chain
+  std::vector<std::vector<Tag>> groupsOf_; ///< per chain: the loop, the curve of a name, or both
 };
 
 } // namespace

@@ -53,7 +53,8 @@ void writeMeditVertices(const ElementMesh& mesh, const MeshSets& sets, OutputFil
   }
 }
 
-/// Boundary loops, then feature curves. Returns the places of the latter among the edges, from 1.
+/// Boundary loops, then feature curves; edges of a loop that are of a curve with a name go with that. Returns the
+/// places of edges inside of the surface among the edges, from 1.
 std::vector<std::uint64_t> writeMeditEdges(const MeshSets& sets, OutputFile& file)
 {
   const std::size_t count = sets.edgeCount();
@@ -63,7 +64,9 @@ std::vector<std::uint64_t> writeMeditEdges(const MeshSets& sets, OutputFile& fil
     return ridges;
   }
   file << "\nEdges\n" << count << '\n';
-  std::uint64_t edge = 0;
+  std::vector<std::uint64_t> referenceOf(sets.chains.size());
+  std::vector<std::uint8_t> isBoundary(sets.chains.size(), 0);
+  std::vector<Index> order; // of chains, each once
   std::uint64_t reference = 0;
   for (const auto* curves : { &sets.boundaries, &sets.curves })
   {
@@ -72,17 +75,27 @@ std::vector<std::uint64_t> writeMeditEdges(const MeshSets& sets, OutputFile& fil
       ++reference;
       for (const Index c : curve.chains)
       {
-        const EdgeChain& chain = sets.chains[c];
-        for (std::size_t k = 0; k < chain.sides.size(); ++k)
+        if (referenceOf[c] == 0)
         {
-          file << chain.nodes[k] + 1 << ' ' << chain.nodes[(k + 1) % chain.nodes.size()] + 1 << ' '
-               << reference << '\n';
-          ++edge;
-          if (curves == &sets.curves)
-          {
-            ridges.push_back(edge);
-          }
+          order.push_back(c);
+          isBoundary[c] = curves == &sets.boundaries ? 1 : 0;
         }
+        referenceOf[c] = reference;
+      }
+    }
+  }
+  std::uint64_t edge = 0;
+  for (const Index c : order)
+  {
+    const EdgeChain& chain = sets.chains[c];
+    for (std::size_t k = 0; k < chain.sides.size(); ++k)
+    {
+      file << chain.nodes[k] + 1 << ' ' << chain.nodes[(k + 1) % chain.nodes.size()] + 1 << ' '
+           << referenceOf[c] << '\n';
+      ++edge;
+      if (isBoundary[c] == 0)
+      {
+        ridges.push_back(edge);
       }
     }
   }

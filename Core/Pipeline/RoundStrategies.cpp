@@ -196,15 +196,33 @@ std::shared_ptr<const MovedFeatures> mergedJunctions(Mesh mesh, double edgeLengt
   return all;
 }
 
-std::string mergedNotice(const MovedFeatures& moved)
+/// What features are called that yield.
+struct YieldingWords
+{
+  const char* one;    ///< "of so many ..."
+  const char* many;   ///< once they were named
+  const char* beside; ///< what meets at edges of quads in their place
+  const char* remedy;
+};
+
+/// Edges of a design (SurfaceInput::featuresYield) are the features of a designed body that were not found by an angle.
+YieldingWords yieldingWords(const RunContext& run)
+{
+  return run.surface->facets.isDesigned && !run.options.featureAngle
+    ? YieldingWords{ "CAD edges", "edges", "faces", "ask for more quads" }
+    : YieldingWords{ "borders between patches", "borders", "patches",
+        "ask for more quads, or for patches that are wider than a quad," };
+}
+
+std::string mergedNotice(const MovedFeatures& moved, const YieldingWords& words)
 {
   const bool isOne = moved.junctions == 1;
-  return std::to_string(moved.junctions) + (isOne ? " junction" : " junctions") +
-    " of borders between patches, nearer to another one than half a quad, " +
-    (isOne ? "" : "the first ") + "near " + placeText(moved.place) +
-    (isOne ? ", counts" : ", count") +
-    " as one with it, as there is no map with both: borders that end there run beside where they "
-    "were; ask for more quads for all borders to be followed";
+  return std::to_string(moved.junctions) + (isOne ? " junction" : " junctions") + " of " +
+    words.one + ", nearer to another one than half a quad, " + (isOne ? "" : "the first ") +
+    "near " + placeText(moved.place) + (isOne ? ", counts" : ", count") +
+    " as one with it, as there is no map with both: " + words.many +
+    " that end there run beside where they were; ask for more quads for all " + words.many +
+    " to be followed";
 }
 
 /// All borders of patches that a plan gives up, in a sentence.
@@ -239,14 +257,14 @@ std::string borderNotice(const RunContext& run, const Mesh& mesh, const Plan& pl
       !mesh.isBoundary(h) && h < mesh.twin[h] && (mesh.flags[h] & kYieldingFeature) != 0;
     all += isBorder ? sizedLength(mesh, h) / run.edgeLength : 0;
   }
+  const YieldingWords words = yieldingWords(run);
   std::ostringstream text;
-  text
-    << std::setprecision(3) << length << " of " << all
-    << " edge lengths of borders between patches, the longest curve with " << longest->lengthInQuads
-    << " near " << placeText(longest->place)
-    << ", leave no room for quads of this size: quads do not follow them, and the patches meet at "
-       "edges of quads beside; ask for more quads, or for patches that are wider than a quad, for "
-       "all borders to be followed";
+  text << std::setprecision(3) << length << " of " << all << " edge lengths of " << words.one
+       << ", the longest curve with " << longest->lengthInQuads << " near "
+       << placeText(longest->place)
+       << ", leave no room for quads of this size: quads do not follow them, and the "
+       << words.beside << " meet at edges of quads beside; " << words.remedy << " for all "
+       << words.many << " to be followed";
   return text.str();
 }
 
@@ -472,7 +490,7 @@ std::optional<Plan> withFewerBorders(
     const BorderStep& step = kBorderSteps[static_cast<std::size_t>(plan.borderDrops++)];
     if (step.way == BorderStep::Way::Merge && (plan.moved = mergedJunctions(mesh, run.edgeLength)))
     {
-      plan.notices.push_back(mergedNotice(*plan.moved));
+      plan.notices.push_back(mergedNotice(*plan.moved, yieldingWords(run)));
       return plan;
     }
     std::vector<Index> features;

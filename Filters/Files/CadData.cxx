@@ -3,8 +3,11 @@
 #include "Files/CadData.h"
 
 #include "Base/Refuse.h"
+#include "Cad/Calls.h"
+#include "Common/NewArray.h"
 #include "Convert/PolyData.h"
 #include "ElementGrids/Elements.h"
+#include "Files/CadNames.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -20,6 +23,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -28,16 +33,6 @@ namespace quadrille
 
 namespace
 {
-
-template <class Array>
-vtkSmartPointer<Array> named(const char* name, std::size_t count, int components = 1)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  return array;
-}
 
 vtkSmartPointer<vtkPoints> pointsOf(const std::vector<Vector3>& from)
 {
@@ -81,10 +76,10 @@ void addCellArrays(const CadPart& part, CadFollow follow, vtkPolyData* data)
 {
   const CadSurface& surface = part.surface;
   const std::size_t count = surface.triangles.size();
-  const auto faces = named<vtkIntArray>(arrays::kCadFaceId, count);
-  const auto names = named<vtkStringArray>(arrays::kPatchNames, count);
-  const auto features = named<vtkUnsignedCharArray>(arrays::kFeatureEdges, count);
-  const auto colours = named<vtkUnsignedCharArray>("CadColour", count, 3);
+  const auto faces = newArray<vtkIntArray>(arrays::kCadFaceId, 1, count);
+  const auto names = newArray<vtkStringArray>(arrays::kPatchNames, 1, count);
+  const auto features = newArray<vtkUnsignedCharArray>(arrays::kFeatureEdges, 1, count);
+  const auto colours = newArray<vtkUnsignedCharArray>("CadColour", 3, count);
   const std::set<std::pair<Index, Index>> segments = followedSegments(surface, follow);
   bool hasColours = false;
   for (std::size_t t = 0; t < count; ++t)
@@ -119,26 +114,83 @@ void addCellArrays(const CadPart& part, CadFollow follow, vtkPolyData* data)
   }
 }
 
+vtkSmartPointer<vtkStringArray> stringArray(
+  const char* name, const std::vector<std::string>& values)
+{
+  auto array = newArray<vtkStringArray>(name, 1, values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    array->SetValue(static_cast<vtkIdType>(i), values[i]);
+  }
+  return array;
+}
+
+/// Names of edges and vertices, and where these are, see CadNames.h.
+void addNames(const CadPart& part, vtkFieldData* fields)
+{
+  const CadSurface& surface = part.surface;
+  const std::size_t edges = surface.edges.size(), vertices = surface.vertexPoints.size();
+  std::map<Index, int> vertexAt;
+  const auto vertexPoints = newArray<vtkDoubleArray>(arrays::kCadVertexPoints, 3, vertices);
+  for (std::size_t v = 0; v < vertices; ++v)
+  {
+    const Index point = surface.vertexPoints[v];
+    constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+    const Vector3 place =
+      point == kInvalidIndex ? Vector3::Constant(kNowhere) : surface.points[point];
+    vertexPoints->SetTuple(static_cast<vtkIdType>(v), place.data());
+    vertexAt.emplace(point, static_cast<int>(v));
+  }
+  const auto ends = newArray<vtkIntArray>(arrays::kCadEdgeEnds, 2, edges);
+  const auto counts = newArray<vtkIntArray>(arrays::kCadEdgeCounts, 1, edges);
+  const auto points = newArray<vtkDoubleArray>(arrays::kCadEdgePoints, 3);
+  for (std::size_t e = 0; e < edges; ++e)
+  {
+    const std::vector<Index>& along = surface.edges[e].points;
+    const auto endAt = [&](Index point)
+    {
+      const auto found = vertexAt.find(point);
+      return found == vertexAt.end() ? -1 : found->second;
+    };
+    const auto edge = static_cast<vtkIdType>(e);
+    ends->SetTypedComponent(edge, 0, along.empty() ? -1 : endAt(along.front()));
+    ends->SetTypedComponent(edge, 1, along.empty() ? -1 : endAt(along.back()));
+    counts->SetValue(edge, static_cast<int>(along.size()));
+    for (const Index point : along)
+    {
+      points->InsertNextTuple(surface.points[point].data());
+    }
+  }
+  const auto edgeNames = stringArray(arrays::kCadEdgeNames, part.edgeNames);
+  const auto vertexNames = stringArray(arrays::kCadVertexNames, part.vertexNames);
+  for (vtkAbstractArray* array : std::initializer_list<vtkAbstractArray*>{
+         edgeNames, vertexNames, ends, counts, points, vertexPoints })
+  {
+    fields->AddArray(array);
+  }
+}
+
 void addFieldArrays(const CadPart& part, const std::string& unit,
   const TessellationOptions& options, CadFollow follow, vtkFieldData* fields)
 {
-  const std::vector<std::uint8_t> bytes = part.shape.bytes();
-  const auto shape = named<vtkUnsignedCharArray>(arrays::kCadShape, bytes.size());
+  const std::vector<std::uint8_t> bytes = cadCalls().bytesOfShape(part.shape);
+  const auto shape = newArray<vtkUnsignedCharArray>(arrays::kCadShape, 1, bytes.size());
   std::copy(bytes.begin(), bytes.end(), shape->GetPointer(0));
-  const auto tessellation = named<vtkDoubleArray>(arrays::kCadTessellation, 4);
+  const auto tessellation = newArray<vtkDoubleArray>(arrays::kCadTessellation, 1, 4);
   tessellation->SetValue(0, options.chordError);
   tessellation->SetValue(1, options.angle);
   tessellation->SetValue(2, options.sharpAngle);
   tessellation->SetValue(3, follow == CadFollow::All ? 1 : 0);
   const std::size_t faces = part.surface.surfaceKinds.size();
-  const auto names = named<vtkStringArray>("CadFaceNames", faces);
-  const auto kinds = named<vtkStringArray>("CadSurfaceKinds", faces);
+  const auto names = newArray<vtkStringArray>("CadFaceNames", 1, faces);
+  const auto kinds = newArray<vtkStringArray>("CadSurfaceKinds", 1, faces);
   for (std::size_t f = 0; f < faces; ++f)
   {
     names->SetValue(static_cast<vtkIdType>(f), nameOfFace(part, f));
     kinds->SetValue(static_cast<vtkIdType>(f), wordOf(part.surface.surfaceKinds[f]));
   }
-  const auto unitOfFile = named<vtkStringArray>("CadUnitOfFile", 1);
+  addNames(part, fields);
+  const auto unitOfFile = newArray<vtkStringArray>("CadUnitOfFile", 1, 1);
   unitOfFile->SetValue(0, unit);
   for (vtkAbstractArray* array :
     std::initializer_list<vtkAbstractArray*>{ shape, tessellation, names, kinds, unitOfFile })
@@ -171,11 +223,11 @@ vtkSmartPointer<vtkPolyData> cadEdges(const std::vector<CadPart>& parts)
 {
   std::vector<Vector3> points;
   vtkNew<vtkCellArray> lines;
-  const auto numbers = named<vtkIntArray>("CadPart", 0);
-  const auto ids = named<vtkIntArray>("CadEdgeId", 0);
-  const auto kinds = named<vtkStringArray>("CadEdgeKind", 0);
-  const auto angles = named<vtkDoubleArray>("CadEdgeAngle", 0);
-  const auto names = named<vtkStringArray>("CadEdgeName", 0);
+  const auto numbers = newArray<vtkIntArray>("CadPart");
+  const auto ids = newArray<vtkIntArray>("CadEdgeId");
+  const auto kinds = newArray<vtkStringArray>("CadEdgeKind");
+  const auto angles = newArray<vtkDoubleArray>("CadEdgeAngle");
+  const auto names = newArray<vtkStringArray>("CadEdgeName");
   for (std::size_t p = 0; p < parts.size(); ++p)
   {
     const CadSurface& surface = parts[p].surface;
@@ -222,7 +274,7 @@ CadSource cadSource(vtkFieldData* fields)
   CadSource source;
   const unsigned char* bytes = shape->GetPointer(0);
   source.shape =
-    CadShape::ofBytes(std::vector<std::uint8_t>(bytes, bytes + shape->GetNumberOfValues()));
+    cadCalls().shapeOfBytes(std::vector<std::uint8_t>(bytes, bytes + shape->GetNumberOfValues()));
   source.options.chordError = options->GetTuple1(0);
   source.options.angle = options->GetTuple1(1);
   source.options.sharpAngle = options->GetTuple1(2);

@@ -33,7 +33,7 @@ enum class CadFollow
 /// Triangles. Cells: CadFaceId, PatchNames (the names of the faces), FeatureEdges (bits of the followed edges; free
 /// ones are boundary without that), CadColour (where the file has colours). Field data: CadShape (bytes of the exact
 /// shape), CadTessellation (the options it was tessellated with, and whether tangent edges are followed),
-/// CadFaceNames, CadSurfaceKinds (by id), CadUnitOfFile.
+/// CadFaceNames, CadSurfaceKinds (by id), CadUnitOfFile, and names and places of edges and vertices, see CadNames.h.
 vtkSmartPointer<vtkPolyData> cadPolyData(const CadPart& part, const std::string& unit,
   const TessellationOptions& options, CadFollow follow);
 

@@ -24,7 +24,8 @@
 
 Where this package was built for a VTK, meshes are data of VTK. The wheel quadrille-mesh needs NumPy alone: there a
 mesh is a Mesh of arrays, which is the pair (points, faces) as well; data of VTK that go in come out as such.
-read_cad(), on_cad_geometry(), repair(), wrap(), elements(), check(), spread=True and what follows are not in the wheel.
+read_cad(), on_cad_geometry(), sizes_by_name(), repair(), wrap(), elements(), check(), spread=True and what follows are
+not in the wheel.
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
 vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadElements, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison,
@@ -43,7 +44,7 @@ if find_spec(__name__ + "._vtk"):
 from ._backend import backend
 from ._elements import FailedElements, elements
 from ._errors import InvalidInput, RemeshError
-from ._files import on_cad_geometry, read, read_cad, write
+from ._files import on_cad_geometry, read, read_cad, sizes_by_name, write
 from ._inputs import as_curves, as_surface, to_polydata, with_requests
 from ._mesh import Mesh
 from ._options import (
@@ -55,8 +56,8 @@ from ._version import __version__
 
 __all__ = [
     "FailedElements", "InvalidInput", "Irregular", "Mesh", "RemeshError", "Remeshed", "Session", "check", "elements",
-    "has_cad", "has_cgal", "info", "on_cad_geometry", "read", "read_cad", "remesh", "repair", "to_arrays",
-    "to_polydata", "wrap", "write", "__version__",
+    "has_cad", "has_cgal", "info", "on_cad_geometry", "read", "read_cad", "remesh", "repair", "sizes_by_name",
+    "to_arrays", "to_polydata", "wrap", "write", "__version__",
     *backend.CLASSES,
 ]
 

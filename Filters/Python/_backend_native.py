@@ -332,6 +332,10 @@ def read_cad(path, **_):
     raise InvalidInput(f"{path}: CAD files are not read here: {_ELSEWHERE}. Or have your CAD program write STL or PLY")
 
 
+def sizes_by_name(*_):
+    raise InvalidInput(f"there are no sizes by name here: {_ELSEWHERE}")
+
+
 def on_cad_geometry(_):
     raise InvalidInput(f"there is no exact geometry here: {_ELSEWHERE}")
 

@@ -20,6 +20,7 @@ vtkQuadRemesh = filters.vtkQuadRemesh
 CLASSES = (
     "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapComparison", "vtkIntegerGridMapQuality",
     "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource", "vtkQuadElements", "vtkQuadExtraction", "vtkQuadMeshWriter",
+    "vtkQuadNamedSizes",
     "vtkQuadRemesh", "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSTLReader", "vtkQuadrilleSession")
 
 
@@ -388,6 +389,17 @@ def on_cad_geometry(mesh):
     if projection.GetOutcomeText():
         raise InvalidInput(projection.GetOutcomeText())
     return projection.GetOutputDataObject(0)
+
+
+def sizes_by_name(mesh, text):
+    sized = filters.vtkQuadNamedSizes()
+    sized.SetSizes(text)
+    sized.SetInputDataObject(mesh)
+    with _Silence():
+        sized.Update()
+    if sized.GetOutcomeText():
+        raise InvalidInput(sized.GetOutcomeText())
+    return sized.GetOutputDataObject(0)
 
 
 def read(path):

@@ -46,6 +46,22 @@ def on_cad_geometry(mesh):
     return backend.on_cad_geometry(mesh)
 
 
+def sizes_by_name(mesh, sizes):
+    """The surface with sizes of quads by names: a vtkPolyData with the point array Sizing, which remesh() and Session
+    take as it is, and with short triangles beside what has a size. Needs VTK.
+
+    mesh: of read_cad(), or with the cell array PatchNames; also a vtkMultiBlockDataSet of such ones.
+    sizes: a dict from names of faces, edges and vertices to factors of the target edge length, {"fillet*": 0.5}; *
+        stands for any letters, ? for one. CAD edges and vertices without a name are EDGE_n and VERTEX_n, by their ids
+        from 1, and take factors up to 1. Of several sizes of one name the last one counts; where faces, edges and
+        vertices meet, the smallest.
+
+    Raises InvalidInput where nothing has such a name, with near ones.
+    """
+    lines = [f"{name}={real(f'the size of {name!r}', factor, above=0)!r}" for name, factor in dict(sizes).items()]
+    return backend.sizes_by_name(mesh, "\n".join(lines))
+
+
 #: Whose input decks are written, and the versions of Gmsh's format, in the order of vtkQuadMeshWriter's.
 DIALECTS = ("calculix", "abaqus")
 MSH_VERSIONS = ("4.1", "2.2")

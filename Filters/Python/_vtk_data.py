@@ -67,12 +67,13 @@ def add_array(attributes, name, values):
 
 
 def fields_of(data):
-    """The field data as a dict of lists, without the exact shape of a CAD file, which are bytes."""
+    """The field data as a dict of lists, without the exact shape of a CAD file, which are bytes, and the places of its
+    edges and vertices."""
     fields = data.GetFieldData()
     result = {}
     for i in range(fields.GetNumberOfArrays()):
         array = fields.GetAbstractArray(i)
-        if array.GetName() == "CadShape":
+        if array.GetName() in ("CadShape", "CadEdgePoints", "CadEdgeCounts", "CadEdgeEnds", "CadVertexPoints"):
             continue
         values = [array.GetVariantValue(k) for k in range(array.GetNumberOfValues())]
         result[array.GetName()] = [

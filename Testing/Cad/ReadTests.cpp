@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -61,10 +62,10 @@ std::string joined(const std::vector<std::string>& lines)
 
 } // namespace
 
-TEST(Read, NamesOfFacesAreThoseOfTheFile)
+TEST(Read, NamesAreThoseOfTheFile)
 {
   const std::string path = testFile("named.step");
-  writeStep(boxWithHole(), path, { { 1, "support" }, { 7, "bore" } });
+  writeStep(boxWithHole(), path, namesOfBox());
   const CadFile file = readCadFile(path);
   ASSERT_EQ(file.parts.size(), 1U);
   const CadPart& part = file.parts.front();
@@ -78,6 +79,11 @@ TEST(Read, NamesOfFacesAreThoseOfTheFile)
   EXPECT_EQ(std::count(part.faceNames.begin(), part.faceNames.end(), "support"), 1);
   EXPECT_EQ(std::count(part.faceNames.begin(), part.faceNames.end(), "bore"), 1);
   EXPECT_EQ(std::count(part.faceNames.begin(), part.faceNames.end(), ""), 5);
+  EXPECT_EQ(std::count(part.edgeNames.begin(), part.edgeNames.end(), "upper rim"), 1);
+  EXPECT_EQ(std::count(part.edgeNames.begin(), part.edgeNames.end(), "front edge"), 1);
+  EXPECT_EQ(std::count(part.edgeNames.begin(), part.edgeNames.end(), ""), 13);
+  EXPECT_EQ(std::count(part.vertexNames.begin(), part.vertexNames.end(), "origin"), 1);
+  EXPECT_EQ(std::count(part.vertexNames.begin(), part.vertexNames.end(), ""), 9);
 }
 
 TEST(Read, InstancesArePartsAtTheirPlaces)
@@ -104,6 +110,19 @@ TEST(Read, InstancesArePartsAtTheirPlaces)
   EXPECT_EQ(both.shape.faceCount(), 14U);
   EXPECT_EQ(both.faceNames.front(), "left/FACE_1");
   EXPECT_EQ(both.faceNames.back(), "right/FACE_7");
+  // The plate is tessellated once, so that both have the same triangles there, too; and it is closed.
+  std::array<std::size_t, 14> triangles{};
+  for (const Index face : both.surface.faceOf)
+  {
+    ++triangles.at(face);
+  }
+  for (std::size_t f = 0; f < 7; ++f)
+  {
+    EXPECT_GT(triangles[f], 0U);
+    EXPECT_EQ(triangles[f], triangles[f + 7]);
+  }
+  EXPECT_EQ(meshEdges(both.surface).open, 0U);
+  EXPECT_EQ(area(both.surface), area(tessellate(both.shape))); // made again from the shape
 }
 
 TEST(Read, UnitsAreToldAndCoordinatesAreInMillimetres)

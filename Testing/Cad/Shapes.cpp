@@ -8,6 +8,7 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
@@ -73,8 +74,39 @@ void writeDocument(const Handle(TDocStd_Document) & document, const std::string&
 
 } // namespace
 
-void writeStep(const TopoDS_Shape& shape, const std::string& path,
-  const std::map<int, std::string>& names, const std::string& unit)
+ShapeNames namesOfBox()
+{
+  const TopoDS_Shape shape = boxWithHole();
+  ShapeNames names{ { { 1, "support" }, { 7, "bore" } } };
+  TopTools_IndexedMapOfShape edges, vertices;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
+  for (int i = 1; i <= edges.Extent(); ++i)
+  {
+    GProp_GProps properties;
+    BRepGProp::LinearProperties(edges(i), properties);
+    const gp_Pnt centre = properties.CentreOfMass();
+    if (centre.Distance(gp_Pnt(2, 1.5, 2)) < 1e-6)
+    {
+      names.edges[i] = "upper rim";
+    }
+    else if (centre.Distance(gp_Pnt(2, 0, 0)) < 1e-6)
+    {
+      names.edges[i] = "front edge";
+    }
+  }
+  for (int i = 1; i <= vertices.Extent(); ++i)
+  {
+    if (BRep_Tool::Pnt(TopoDS::Vertex(vertices(i))).Distance(gp_Pnt(0, 0, 0)) < 1e-6)
+    {
+      names.vertices[i] = "origin";
+    }
+  }
+  return names;
+}
+
+void writeStep(const TopoDS_Shape& shape, const std::string& path, const ShapeNames& names,
+  const std::string& unit)
 {
   STEPCAFControl_Controller::Init();
   Interface_Static::SetCVal("write.step.unit", unit.c_str());
@@ -83,12 +115,18 @@ void writeStep(const TopoDS_Shape& shape, const std::string& path,
   const Handle(XCAFDoc_ShapeTool) tool = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const TDF_Label label = tool->AddShape(shape, Standard_False);
   TDataStd_Name::Set(label, "the part");
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  for (const auto& [number, name] : names)
+  const auto setNames = [&](TopAbs_ShapeEnum kind, const std::map<int, std::string>& ofKind)
   {
-    TDataStd_Name::Set(tool->AddSubShape(label, faces(number)), name.c_str());
-  }
+    TopTools_IndexedMapOfShape parts;
+    TopExp::MapShapes(shape, kind, parts);
+    for (const auto& [number, name] : ofKind)
+    {
+      TDataStd_Name::Set(tool->AddSubShape(label, parts(number)), name.c_str());
+    }
+  };
+  setNames(TopAbs_FACE, names.faces);
+  setNames(TopAbs_EDGE, names.edges);
+  setNames(TopAbs_VERTEX, names.vertices);
   writeDocument(document, path);
   Interface_Static::SetCVal("write.step.unit", "MM");
 }

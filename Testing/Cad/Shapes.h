@@ -20,9 +20,21 @@ TopoDS_Shape boxWithHole();
 /// Radius 1, height 2, with a fillet of radius 0.25 round the top: 4 faces.
 TopoDS_Shape roundedCylinder();
 
-/// A STEP file of one part. names: of faces, by their number from 1 in the shape's map. unit: "MM", "M" or "INCH".
-void writeStep(const TopoDS_Shape& shape, const std::string& path,
-  const std::map<int, std::string>& names = {}, const std::string& unit = "MM");
+/// Names of parts of a shape, by their numbers from 1 in the shape's maps.
+struct ShapeNames
+{
+  std::map<int, std::string> faces;
+  std::map<int, std::string> edges = {};
+  std::map<int, std::string> vertices = {};
+};
+
+/// Of boxWithHole(): the faces "support" and "bore", the edges "upper rim" (of the hole) and "front edge" (from the
+/// origin along x), and the vertex "origin".
+ShapeNames namesOfBox();
+
+/// A STEP file of one part. unit: "MM", "M" or "INCH".
+void writeStep(const TopoDS_Shape& shape, const std::string& path, const ShapeNames& names = {},
+  const std::string& unit = "MM");
 /// Two instances of the part called "plate", of which the second one is moved by (10, 0, 0) and turned.
 void writeAssembly(const TopoDS_Shape& part, const std::string& path);
 void writeIges(const TopoDS_Shape& shape, const std::string& path);

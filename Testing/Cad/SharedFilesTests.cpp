@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// All files of the shared data, where they are at hand.
 #include "Cad/CadFile.h"
+#include "Cad/CadFormat.h"
 #include "Cad/ShapeData.h"
 #include "Shapes.h"
 
@@ -85,7 +86,7 @@ std::vector<std::string> names()
   std::vector<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(QUADRILLE_STEP_DATA))
   {
-    if (isCadFile(entry.path().string()))
+    if (cadFormatOf(entry.path().string()))
     {
       found.push_back(entry.path().filename().string());
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Writes the CAD files of the tests in Python: named.step (a box with a hole, faces "support" and "bore"),
+/// Writes the CAD files of the tests in Python: named.step (a box with a hole, see namesOfBox),
 /// rounded.step, assembly.step.
 ///
 ///   cad_shapes FOLDER
@@ -21,8 +21,8 @@ int main(int argc, char* argv[])
   {
     const std::filesystem::path folder = argv[1];
     std::filesystem::create_directories(folder);
-    quadrille::writeStep(quadrille::boxWithHole(), (folder / "named.step").string(),
-      { { 1, "support" }, { 7, "bore" } });
+    quadrille::writeStep(
+      quadrille::boxWithHole(), (folder / "named.step").string(), quadrille::namesOfBox());
     quadrille::writeStep(quadrille::roundedCylinder(), (folder / "rounded.step").string());
     quadrille::writeAssembly(quadrille::boxWithHole(), (folder / "assembly.step").string());
     return 0;

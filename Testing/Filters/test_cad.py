@@ -5,6 +5,7 @@
 
   test_cad.py QUADRILLE CAD_SHAPES CAD_MEASURE WORK_DIR
 """
+import os
 import pathlib
 import subprocess
 import sys
@@ -13,8 +14,14 @@ import unittest
 import numpy
 import vtkmodules.vtkIOXML  # noqa: F401, so that Python knows the class of the reader
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOExodus import vtkExodusIIReader
 
 import quadrille
+
+try:
+    import meshio
+except ImportError:  # its tests are left out, and say so
+    meshio = None
 
 COMMAND, SHAPES, MEASURE, WORK = sys.argv[1:5]
 FOLDER = pathlib.Path(WORK)
@@ -45,6 +52,41 @@ def area(points, quads):
     a, b, c, d = (points[quads[:, i]] for i in range(4))
     return (numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) +
             numpy.linalg.norm(numpy.cross(c - a, d - a), axis=1)).sum() / 2
+
+
+class Module(unittest.TestCase):
+    """Open CASCADE is in a module of its own, which is opened with the first CAD file."""
+
+    def test_nothing_is_linked_with_it(self):
+        listed = subprocess.run(["ldd", COMMAND], capture_output=True, text=True, check=True).stdout
+        self.assertIn("libQuadrilleFilters", listed)
+        self.assertNotIn("libTK", listed)
+
+    def test_it_is_opened_with_the_first_cad_file(self):
+        code = ("import quadrille, sys; has = lambda: 'libTKernel' in open('/proc/self/maps').read();"
+                "quadrille.remesh(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), quads=30);"
+                "before = has(); quadrille.read_cad(sys.argv[1]); print(before, has())")
+        result = subprocess.run([sys.executable, "-c", code, FOLDER / "named.step"], capture_output=True, text=True)
+        self.assertEqual(result.stdout.split(), ["False", "True"], result.stderr)
+
+    def test_a_missing_module_is_told(self):
+        listed = subprocess.run(["ldd", COMMAND], capture_output=True, text=True, check=True).stdout
+        library = next(line.split()[2] for line in listed.splitlines() if "libQuadrilleFilters" in line)
+        alone = FOLDER / "alone"
+        alone.mkdir(exist_ok=True)
+        (alone / pathlib.Path(library).name).unlink(missing_ok=True)
+        (alone / pathlib.Path(library).name).symlink_to(library)
+
+        def run_alone(source, target):
+            return subprocess.run([COMMAND, source, target, "--quads", "100"], capture_output=True, text=True,
+                                  env=dict(os.environ, LD_LIBRARY_PATH=str(alone)))
+
+        result = run_alone(FOLDER / "named.step", FOLDER / "alone.inp")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("QuadrilleCad.so, which cannot be loaded", result.stderr)
+        self.assertIn("Install Quadrille again", result.stderr)
+        (FOLDER / "plain.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.assertEqual(run_alone(FOLDER / "plain.obj", FOLDER / "plain.vtp").returncode, 0)
 
 
 class Cad(unittest.TestCase):
@@ -153,6 +195,194 @@ class Cad(unittest.TestCase):
         result = run(FOLDER / "part.ply", FOLDER / "out.inp", "--cad-follow", "all")
         self.assertEqual(result.returncode, 2)
         self.assertIn("is for CAD files", result.stderr)
+
+
+NEAR = 1e-6  # readers may give single precision
+
+
+def near_rim(points):
+    return (abs(numpy.hypot(points[:, 0] - 2, points[:, 1] - 1.5) - 0.5) < NEAR) & (abs(points[:, 2] - 2) < NEAR)
+
+
+def near_front(points):
+    return (abs(points[:, 1]) < NEAR) & (abs(points[:, 2]) < NEAR)
+
+
+def near_origin(points):
+    return numpy.linalg.norm(points, axis=1) < NEAR
+
+
+#: Named edges and vertices of named.step, and where they are.
+NAMED = {"upper rim": near_rim, "front edge": near_front, "origin": near_origin}
+
+
+class Sets(unittest.TestCase):
+    """Named edges and vertices of the file are sets, which other programs read."""
+
+    def written(self, extension, *options):
+        path = FOLDER / f"sets.{extension}"
+        result = run(FOLDER / "named.step", path, "--quads", 800, *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("without a set", result.stderr)
+        return path
+
+    def require_nodes(self, name, points, nodes):
+        found = numpy.unique(nodes)
+        self.assertEqual(set(found), set(numpy.flatnonzero(NAMED[name](points))), name)
+        self.assertEqual(len(found), 1 if name == "origin" else len(found))
+        self.assertGreater(len(found), 0 if name == "origin" else 4)
+
+    @unittest.skipUnless(meshio, "package python3-meshio is missing")
+    def test_inp_by_meshio(self):
+        for order in (1, 2):
+            mesh = meshio.read(self.written("inp", "--order", order))
+            for name in NAMED:
+                self.require_nodes(name, mesh.points, mesh.point_sets[name.upper().replace(" ", "_")])
+        text = (FOLDER / "sets.inp").read_text()
+        self.assertIn("*SURFACE, NAME=FRONT_EDGE_EDGES, TYPE=ELEMENT", text.upper())
+
+    @unittest.skipUnless(meshio, "package python3-meshio is missing")
+    def test_msh_by_meshio(self):
+        for version in ("4.1", "2.2"):
+            mesh = meshio.read(self.written("msh", "--msh-version", version))
+            for name in NAMED:
+                tag, dimension = mesh.field_data[name]
+                self.assertEqual(dimension, 0 if name == "origin" else 1)
+                cells = [block.data[groups == tag]
+                         for block, groups in zip(mesh.cells, mesh.cell_data["gmsh:physical"])
+                         if block.dim == dimension]
+                self.require_nodes(name, mesh.points, numpy.concatenate([c.ravel() for c in cells]))
+
+    def test_exodus_by_vtk(self):
+        reader = vtkExodusIIReader()
+        reader.SetFileName(str(self.written("ex2")))
+        reader.GenerateGlobalNodeIdArrayOn()
+        reader.UpdateInformation()
+        for kind, wanted in ((reader.NODE_SET, NAMED), (reader.SIDE_SET, ("upper rim", "front edge"))):
+            names = [reader.GetObjectName(kind, i) for i in range(reader.GetNumberOfObjects(kind))]
+            for name in wanted:
+                self.assertTrue(any(n.startswith(name) for n in names), (name, names))
+                for i, other in enumerate(names):
+                    reader.SetObjectStatus(kind, i, int(other.startswith(name)))
+                reader.Update()
+                leaves = reader.GetOutput().NewIterator()
+                points = []
+                while not leaves.IsDoneWithTraversal():
+                    data = leaves.GetCurrentDataObject()
+                    label = leaves.GetCurrentMetaData().Get(reader.GetOutput().NAME())
+                    if label.startswith(name):
+                        points.append(vtk_to_numpy(data.GetPoints().GetData()))
+                    leaves.GoToNextItem()
+                points = numpy.concatenate(points)
+                self.assertGreater(len(points), 0 if name == "origin" else 4)
+                self.assertTrue(NAMED[name](points).all(), name)
+
+    def test_medit_names_them(self):
+        text = self.written("mesh").read_text()
+        for name, kind in (("upper rim", "edges"), ("front edge", "edges"), ("origin", "vertices")):
+            self.assertRegex(text, rf"# {kind} [0-9]+: {name}\n")
+
+    def test_names_without_nodes_are_told(self):
+        result = run(FOLDER / "named.step", FOLDER / "raw.inp", "--quads", 600, "--cad-nodes", "triangles")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("without a set", " ".join(result.stderr.split()))
+        self.assertNotIn("FRONT_EDGE", (FOLDER / "raw.inp").read_text().upper())
+
+
+class Sizes(unittest.TestCase):
+    def lengths(self, quads):
+        """Of edges: middles and lengths."""
+        points, faces = quadrille.to_arrays(quads)
+        ends = numpy.unique(numpy.sort(numpy.concatenate(
+            [faces[:, (i, (i + 1) % 4)] for i in range(4)]), axis=1), axis=0)
+        a, b = points[ends[:, 0]], points[ends[:, 1]]
+        return (a + b) / 2, numpy.linalg.norm(a - b, axis=1)
+
+    def test_faces(self):
+        """A face of half the size; away from it quads keep theirs."""
+        part = quadrille.read(FOLDER / "named.step")
+        sized = quadrille.sizes_by_name(part, {"bor?": 0.5})
+        self.assertGreater(sized.GetNumberOfCells(), part.GetNumberOfCells())
+        quads = quadrille.remesh(sized, edge_length=0.25)
+        middles, lengths = self.lengths(quads)
+        radius = numpy.hypot(middles[:, 0] - 2, middles[:, 1] - 1.5)
+        on_bore = radius < 0.51
+        self.assertLess(abs(numpy.median(lengths[on_bore]) / 0.125 - 1), 0.2)
+        self.assertLess(abs(numpy.median(lengths[radius > 1.2]) / 0.25 - 1), 0.15)
+
+    def test_edges_and_vertices(self):
+        for name, near in (("front edge", lambda m: (m[:, 1] < 0.01) & (m[:, 2] < 0.01)),
+                           ("origin", lambda m: numpy.linalg.norm(m, axis=1) < 0.1)):
+            sized = quadrille.sizes_by_name(quadrille.read(FOLDER / "named.step"), {name: 0.4})
+            middles, lengths = self.lengths(quadrille.remesh(sized, edge_length=0.25))
+            self.assertGreater(near(middles).sum(), 0, name)
+            # Round a vertex sizes grow again within the first quads.
+            self.assertLess(numpy.median(lengths[near(middles)]), (0.8 if name == "origin" else 0.6) * 0.25, name)
+            far = middles[:, 2] > 1.5
+            self.assertLess(abs(numpy.median(lengths[far]) / 0.25 - 1), 0.15, name)
+
+    def test_area_and_features_stay(self):
+        part = quadrille.read(FOLDER / "rounded.step")
+        sized = quadrille.sizes_by_name(part, {"FACE_1": 0.3, "EDGE_1": 0.5})
+
+        def facts(surface):
+            points, faces = quadrille.to_arrays(surface)
+            a, b, c = (points[faces[:, i]] for i in range(3))
+            bits = vtk_to_numpy(surface.GetCellData().GetArray("FeatureEdges"))
+            features = sum(numpy.linalg.norm(p - q, axis=1)[(bits >> i) & 1 == 1].sum()
+                           for i, (p, q) in enumerate(((a, b), (b, c), (c, a))))
+            return numpy.array([numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1).sum(), features])
+
+        self.assertGreater(sized.GetNumberOfCells(), part.GetNumberOfCells())
+        numpy.testing.assert_allclose(facts(sized), facts(part), rtol=1e-12)
+
+    def test_the_smallest_counts_and_the_last_of_one_name(self):
+        part = quadrille.read(FOLDER / "named.step")
+        sized = quadrille.sizes_by_name(part, {"*": 0.9, "support": 2, "FACE_*": 2, "bore": 1.5})
+        sizing = vtk_to_numpy(sized.GetPointData().GetArray("Sizing"))
+        self.assertEqual(set(numpy.round(sizing, 6)), {numpy.float32(0.9), numpy.float32(2), numpy.float32(1.5)} &
+                         set(numpy.round(sizing, 6)))
+        self.assertAlmostEqual(sizing.min(), 0.9, 6)  # edges and vertices of *
+
+    def test_the_command(self):
+        plain = run(FOLDER / "named.step", FOLDER / "plain.vtp", "--edge-length", 0.25)
+        sized = run(FOLDER / "named.step", FOLDER / "sized.vtp", "--edge-length", 0.25, "--size", "bore=0.5",
+                    "--size", "support = 0.5")
+        for result in (plain, sized):
+            self.assertEqual(result.returncode, 0, result.stderr)
+        counts = [quadrille.read(FOLDER / f"{name}.vtp").GetNumberOfCells() for name in ("plain", "sized")]
+        self.assertGreater(counts[1], 1.3 * counts[0])
+
+    def test_a_session_takes_them(self):
+        sized = quadrille.sizes_by_name(quadrille.read(FOLDER / "named.step"), {"bore": 0.5})
+        session = quadrille.Session(sized, edge_length=0.25, feature_angle=None)
+        session.update()
+        middles, lengths = self.lengths(session.polydata)
+        on_bore = numpy.hypot(middles[:, 0] - 2, middles[:, 1] - 1.5) < 0.51
+        self.assertLess(abs(numpy.median(lengths[on_bore]) / 0.125 - 1), 0.2)
+
+    def test_blocks(self):
+        blocks = quadrille.read_cad(FOLDER / "assembly.step", join_parts=False)
+        sized = quadrille.sizes_by_name(blocks, {"left/FACE_2": 0.5})
+        least = [vtk_to_numpy(sized.GetBlock(i).GetPointData().GetArray("Sizing")).min() for i in range(2)]
+        self.assertEqual(least, [0.5, 1])
+
+    def test_unknown_names_list_near_ones(self):
+        part = quadrille.read(FOLDER / "named.step")
+        with self.assertRaisesRegex(quadrille.InvalidInput, 'is called "bores"; the nearest of .* names are bore, '):
+            quadrille.sizes_by_name(part, {"bore": 0.5, "bores": 0.5})
+        with self.assertRaisesRegex(quadrille.InvalidInput, "factors above 1 are for faces"):
+            quadrille.sizes_by_name(part, {"upper rim": 2})
+        with self.assertRaisesRegex(quadrille.InvalidInput, "above 0"):
+            quadrille.sizes_by_name(part, {"bore": 0})
+        with self.assertRaisesRegex(quadrille.InvalidInput, "has no names"):
+            quadrille.sizes_by_name(quadrille.to_polydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), {"a": 0.5})
+        result = run(FOLDER / "named.step", FOLDER / "out.inp", "--size", "bor=0.5")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("bore", result.stderr)
+        result = run(FOLDER / "named.step", FOLDER / "out.inp", "--size", "bore")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("fillet*=0.5", result.stderr)
 
 
 if __name__ == "__main__":

@@ -25,6 +25,12 @@ def places(proxy):
     return off[1], proxy.GetDataInformation().GetNumberOfPoints()
 
 
+def has_opencascade():
+    with open("/proc/self/maps", encoding="utf-8") as maps:
+        return "libTKernel" in maps.read()
+
+
+check(not has_opencascade(), "the plugin loads Open CASCADE before there is a CAD file")
 # As File > Open does: the reader is found by the extension.
 part = simple.OpenDataFile(named)
 check(part.SMProxy.GetXMLName() == "QuadrilleCADReader", "STEP files are opened by another reader")
@@ -43,6 +49,14 @@ elements = QuadElements(Input=quads, Surface=part, Order="Second")
 second = QuadNodesOnCADGeometry(Input=elements)
 second.UpdatePipeline()
 check(places(second)[0] == 0 and places(second)[1] > places(exact)[1], "nodes of second order stay")
+
+sized = QuadSizesByName(Input=part, Sizes="bore = 0.5\nEDGE_1=0.7")
+finer = QuadRemesh(Input=sized, NumberOfQuads=600)
+finer.UpdatePipeline()
+check(sized.PointData["Sizing"].GetRange() == (0.5, 1), "sizes by name are not those asked for")
+check(abs(size_of(finer) / 600 - 1) < 0.2, "with sizes by name the number of quads is another one")
+simple.Delete(finer)
+simple.Delete(sized)
 
 # The edges are the second output.
 edges = simple.OutputPort(part, 1)

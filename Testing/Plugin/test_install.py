@@ -34,6 +34,8 @@ out = pathlib.Path(prefix) / "quads.vtp"
 run(one("bin/quadrille"), data / "part.ply", out, "--quads", "1000")
 if out.stat().st_size < 1000:
     sys.exit("FAILED: no quads were written")
+if glob.glob(os.path.join(prefix, "lib*/**/QuadrilleCad.so"), recursive=True):
+    run(one("bin/quadrille"), data / "bracket.step", out, "--quads", "800")
 package = os.path.dirname(os.path.dirname(one("lib*/**/quadrille/__init__.py")))
 code = ("import quadrille; m = quadrille.to_polydata([[0,0,0],[1,0,0],[0,1,0]], [[0,1,2]]);"
         "q = quadrille.remesh(m, quads=30); print('quads', q.GetNumberOfCells())")

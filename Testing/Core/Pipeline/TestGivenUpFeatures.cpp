@@ -161,6 +161,13 @@ TEST(GivenUpFeatures, EdgesOfADesignYield)
   input.featuresYield = true;
   const RemeshResult result = remesh(input, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const auto tells = [&](const char* words)
+  {
+    return std::any_of(result.notices.begin(), result.notices.end(),
+      [&](const std::string& text) { return text.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(tells("of CAD edges"));
+  EXPECT_FALSE(tells("borders"));
 }
 
 } // namespace
