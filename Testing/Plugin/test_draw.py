@@ -51,7 +51,7 @@ class Session(test_places.Session):
                 icons.append((start, last))
                 start = None
         icons = [(a, b) for a, b in icons if b - a >= 10]
-        self.tools = {name: ((a + b) // 2, (top + bottom) // 2) for name, (a, b) in zip(TOOLS, icons)}
+        self.tools = {name: ((a + b) // 2, (top + bottom) // 2) for name, (a, b) in zip(("Remesh", *TOOLS), icons)}
 
     def take(self, name):
         """Presses the button of a tool; pressed again it leaves it."""
