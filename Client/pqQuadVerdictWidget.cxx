@@ -15,12 +15,15 @@
 #include "vtkSMSourceProxy.h"
 
 #include <QApplication>
-#include <QHBoxLayout>
+#include <QEvent>
 #include <QLabel>
 #include <QLocale>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QScrollArea>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace
 {
@@ -70,14 +73,14 @@ pqQuadVerdictWidget::pqQuadVerdictWidget(
   this->Show->setToolTip("Looks at the place from outside; each press shows the next one");
   this->Apply->setObjectName("QuadVerdictApply");
   this->Apply->setToolTip("Sets this property, and makes the quads anew; Ctrl+Z takes it back");
-  auto* buttons = new QHBoxLayout;
-  buttons->addWidget(this->Show);
-  buttons->addWidget(this->Apply);
-  buttons->addStretch();
+  // Where a button that has the focus goes, the panel would scroll to the next field.
+  this->Show->setFocusPolicy(Qt::NoFocus);
+  this->Apply->setFocusPolicy(Qt::NoFocus);
   auto* rows = new QVBoxLayout(this);
   rows->setContentsMargins(0, 0, 0, 0);
   rows->addWidget(this->Text);
-  rows->addLayout(buttons);
+  rows->addWidget(this->Show, 0, Qt::AlignLeft);
+  rows->addWidget(this->Apply, 0, Qt::AlignLeft);
   QObject::connect(this->Show, &QPushButton::clicked, this, &pqQuadVerdictWidget::showNext);
   QObject::connect(this->Apply, &QPushButton::clicked, this, &pqQuadVerdictWidget::applyRemedy);
   for (vtkSMProperty* property : { verdict, filter->GetProperty("Remedy") })
@@ -86,6 +89,51 @@ pqQuadVerdictWidget::pqQuadVerdictWidget(
       property, vtkCommand::ModifiedEvent, this, SLOT(refresh()), Qt::QueuedConnection);
   }
   this->refresh();
+}
+
+//-----------------------------------------------------------------------------
+bool pqQuadVerdictWidget::event(QEvent* event)
+{
+  if (event->type() == QEvent::EnabledChange && !this->isEnabled())
+  {
+    this->setEnabled(
+      true); // ParaView disables the fields of what only informs, but here are buttons
+  }
+  if (event->type() == QEvent::Show && !this->Scrolled)
+  {
+    QWidget* outer = this->parentWidget();
+    while (outer && !qobject_cast<QScrollArea*>(outer))
+    {
+      outer = outer->parentWidget();
+    }
+    this->Scrolled = qobject_cast<QScrollArea*>(outer);
+    if (this->Scrolled)
+    {
+      this->Scrolled->viewport()->installEventFilter(this);
+      this->fit();
+    }
+  }
+  return this->Superclass::event(event);
+}
+
+//-----------------------------------------------------------------------------
+bool pqQuadVerdictWidget::eventFilter(QObject* watched, QEvent* event)
+{
+  if (this->Scrolled && watched == this->Scrolled->viewport() && event->type() == QEvent::Resize)
+  {
+    this->fit();
+  }
+  return this->Superclass::eventFilter(watched, event);
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadVerdictWidget::fit()
+{
+  const int margin = 2 * this->mapTo(this->Scrolled->widget(), QPoint(0, 0)).x();
+  const int width =
+    std::max(this->Scrolled->viewport()->width() - margin, this->Show->sizeHint().width());
+  this->Text->setMaximumWidth(width);
+  this->Text->setFixedHeight(this->Text->heightForWidth(width));
 }
 
 //-----------------------------------------------------------------------------
@@ -116,6 +164,10 @@ void pqQuadVerdictWidget::refresh()
         .arg(remedy->label.c_str(), QLocale(QLocale::English).toString(remedy->value, 'g', 8)));
   }
   this->Shown = 0;
+  if (this->Scrolled)
+  {
+    this->fit();
+  }
 }
 
 //-----------------------------------------------------------------------------

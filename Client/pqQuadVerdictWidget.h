@@ -5,10 +5,13 @@
 
 #include "pqPropertyWidget.h"
 
+#include <QPointer>
+
 #include <cstddef>
 
 class QLabel;
 class QPushButton;
+class QScrollArea;
 class vtkSMSourceProxy;
 
 /// The verdict on the last execution of Quad Remesh in the panel: in words and colour, with a button that shows what is
@@ -21,6 +24,10 @@ class pqQuadVerdictWidget : public pqPropertyWidget
 public:
   pqQuadVerdictWidget(vtkSMProxy* filter, vtkSMProperty* verdict, QWidget* parent = nullptr);
 
+protected:
+  bool event(QEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
 private Q_SLOTS:
   void refresh();
 
@@ -28,10 +35,13 @@ private:
   Q_DISABLE_COPY(pqQuadVerdictWidget)
 
   vtkSMSourceProxy* filter() const;
+  /// ParaView lets fields be wider than the panel, which scrolls then; a text that has to be read may not be.
+  void fit();
   void showNext();
   void applyRemedy();
 
   vtkSMProperty* Verdict;
+  QPointer<QScrollArea> Scrolled; ///< the panel
   QLabel* Text;
   QPushButton* Show;
   QPushButton* Apply;
