@@ -133,6 +133,7 @@ void pqQuadVerdictWidget::fit()
   const int width =
     std::max(this->Scrolled->viewport()->width() - margin, this->Show->sizeHint().width());
   this->Text->setMaximumWidth(width);
+  this->Text->setMinimumHeight(0); // it would count as the text's
   this->Text->setFixedHeight(this->Text->heightForWidth(width));
 }
 

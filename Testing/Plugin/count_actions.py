@@ -99,7 +99,7 @@ class Window:
 
     def scroll(self, place, what):
         self.act("scroll " + what)
-        self.xdotool("mousemove", *place, "sleep", 0.1, "click", "--repeat", 8, "--delay", 30, 5)
+        self.xdotool("mousemove", *place, "sleep", 0.1, "click", "--repeat", 2, "--delay", 30, 5)
         self.ask("pass")
 
     def turn_round(self):
@@ -155,7 +155,7 @@ class Window:
         time.sleep(0.7)
         after = self.rows()
         self.ask(first)
-        panel = WIDTH // 6
+        panel = WIDTH // 6 - 60  # without its scroll bar
         changed = [(x, y) for y in range(HEIGHT // 3, HEIGHT) if before[y][:3 * panel] != after[y][:3 * panel]
                    for x in range(panel) if before[y][3 * x:3 * x + 3] != after[y][3 * x:3 * x + 3]]
         if not changed:
