@@ -27,7 +27,7 @@ class vtkSMSourceProxy;
  * The points of the constraint that is selected in the pipeline, as rings in front of everything, where they are.
  *
  * The plain left mouse button on a ring drags the point over the surface that is seen: it never leaves it. Meanwhile
- * the quads follow as a preview, as long as that takes no longer than eyes wait for; the button released, they are made.
+ * the quads follow as a preview, until one takes too long; the button released, they are made.
  */
 class pqQuadrilleHandles : public QObject
 {

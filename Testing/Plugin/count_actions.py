@@ -347,8 +347,8 @@ def main():
                                        stderr=subprocess.STDOUT)
         try:
             window.ask("pass", seconds=120)
-            window.xdotool("search", "--sync", "--onlyvisible", "--name", "ParaView", "windowmove", 0, 0, "windowsize", WIDTH,
-                           HEIGHT - 40)
+            window.xdotool("search", "--sync", "--onlyvisible", "--name", "ParaView", "windowmove", 0, 0, "windowsize",
+                           WIDTH, HEIGHT - 40)
             time.sleep(2)
             bad = run(window, tasks)
         except BaseException:

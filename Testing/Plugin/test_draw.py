@@ -403,6 +403,13 @@ def check_trace(folder, options, chance):
             session.take(name)
             ACTIONS[name](session, chance)
         session.take("Valence")
+        session.ask("simple.SetActiveSource(list(quads().Constraints)[-1])")
+        start = tuple(round(c) for c in session.value("pixel_of(constraints()[-1][1][0])"))
+        before = session.drawn()[1]
+        session.drag([start, *[p[0] for p in session.places(chance, 1)]])
+        if session.drawn()[1] == before:
+            print("BAD: the point of a valence was not dragged")
+            bad += 1
         made = *session.value("bytes_of(quads())"), len(session.value("constraints()"))
         path = place / "trace.py"
         path.write_text(session.value("smtrace.stop_trace()"), encoding="utf-8")
