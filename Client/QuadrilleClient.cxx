@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "pqQuadrilleHandles.h"
 #include "pqQuadrilleToolBar.h"
+#include "pqQuadrilleWidgets.h"
 
+#include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
+#include "pqInterfaceTracker.h"
 
 #include <QApplication>
 #include <QMainWindow>
@@ -27,7 +31,15 @@ void placeToolBar()
     // At the end of ParaView's own row it would be behind the arrow of what has no room.
     window->addToolBarBreak(Qt::TopToolBarArea);
     window->addToolBar(Qt::TopToolBarArea, bar);
+    new pqQuadrilleHandles(bar);
   }
+}
+
+/// The core of the application is still being made when plug-ins are loaded.
+void offerWidgets()
+{
+  auto* core = pqApplicationCore::instance();
+  core->interfaceTracker()->addInterface(new pqQuadrilleWidgets(core));
 }
 
 } // namespace
@@ -37,6 +49,7 @@ extern "C" Q_DECL_EXPORT void quadrilleStartClient()
 {
   if (qobject_cast<QApplication*>(QCoreApplication::instance()))
   {
+    QTimer::singleShot(0, qApp, &offerWidgets);
     QTimer::singleShot(0, qApp, &placeToolBar);
   }
 }

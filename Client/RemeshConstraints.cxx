@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RemeshConstraints.h"
 
+#include "FetchedData.h"
+
 #include "pqUndoStack.h"
-#include "vtkAlgorithm.h"
 #include "vtkCleanPolyData.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkNew.h"
-#include "vtkPVDataInformation.h"
 #include "vtkPolyData.h"
+#include "vtkSMInputProperty.h"
 #include "vtkSMIntVectorProperty.h"
 #include "vtkSMParaViewPipelineController.h"
 #include "vtkSMPropertyHelper.h"
@@ -26,7 +25,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <set>
 
@@ -67,69 +65,6 @@ bool isConstraint(vtkSMProxy* proxy)
 {
   const char* type = proxy ? proxy->GetVTKClassName() : nullptr;
   return type && std::strcmp(type, "vtkQuadConstraintSource") == 0;
-}
-
-/// What an output holds, on the client; null where it was not made.
-vtkSmartPointer<vtkDataObject> fetched(vtkSMSourceProxy* source, int port)
-{
-  const pqScopedUndoExclude noStepOfTheUser;
-  vtkPVDataInformation* there = source->GetDataInformation(static_cast<unsigned int>(port));
-  if (!there || there->IsNull())
-  {
-    return nullptr;
-  }
-  vtkSMSessionProxyManager* manager = source->GetSessionProxyManager();
-  const auto made = [manager](const char* name)
-  {
-    return vtkSmartPointer<vtkSMSourceProxy>::Take(
-      vtkSMSourceProxy::SafeDownCast(manager->NewProxy("filters", name)));
-  };
-  const vtkSmartPointer<vtkSMSourceProxy> gathered = made("ReductionFilter");
-  const vtkSmartPointer<vtkSMSourceProxy> moved = made("ClientServerMoveData");
-  if (!gathered || !moved)
-  {
-    return nullptr;
-  }
-  vtkSMPropertyHelper(gathered, "Input").Set(source, static_cast<unsigned int>(port));
-  if (there->IsCompositeDataSet())
-  {
-    vtkSMPropertyHelper(gathered, "PostGatherHelperName").Set("vtkMultiBlockDataGroupFilter");
-  }
-  else if (there->DataSetTypeIsA("vtkPolyData"))
-  {
-    vtkSMPropertyHelper(gathered, "PostGatherHelperName").Set("vtkAppendPolyData");
-  }
-  else
-  {
-    vtkSMPropertyHelper(gathered, "PassThrough").Set(0); // a table, which the first rank has
-  }
-  gathered->UpdateVTKObjects();
-  gathered->UpdatePipeline();
-  vtkPVDataInformation* whole = gathered->GetDataInformation(0);
-  vtkSMPropertyHelper(moved, "Input").Set(gathered);
-  vtkSMPropertyHelper(moved, "OutputDataType")
-    .Set(whole->IsCompositeDataSet() ? whole->GetCompositeDataSetType() : whole->GetDataSetType());
-  moved->UpdateVTKObjects();
-  moved->UpdatePipeline();
-  auto* algorithm = vtkAlgorithm::SafeDownCast(moved->GetClientSideObject());
-  return algorithm ? algorithm->GetOutputDataObject(0) : nullptr;
-}
-
-template <class Type>
-void forEach(vtkDataObject* data, const std::function<void(Type&)>& visit)
-{
-  if (auto* single = Type::SafeDownCast(data))
-  {
-    visit(*single);
-  }
-  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
-  {
-    auto iterator = vtk::TakeSmartPointer(blocks->NewIterator());
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-    {
-      forEach<Type>(iterator->GetCurrentDataObject(), visit);
-    }
-  }
 }
 
 struct Curve
@@ -178,6 +113,21 @@ bool isQuadRemesh(vtkSMProxy* proxy)
 {
   const char* name = proxy ? proxy->GetXMLName() : nullptr;
   return name && std::strcmp(name, "QuadRemesh") == 0;
+}
+
+bool isSurface(vtkSMSourceProxy* source)
+{
+  vtkSMProxy* filter = source->GetSessionProxyManager()->GetPrototypeProxy("filters", "QuadRemesh");
+  auto* input = vtkSMInputProperty::SafeDownCast(filter ? filter->GetProperty("Input") : nullptr);
+  if (!input)
+  {
+    return false;
+  }
+  input->RemoveAllUncheckedProxies();
+  input->AddUncheckedInputConnection(source, 0);
+  const bool isTaken = input->IsInDomains() != 0;
+  input->RemoveAllUncheckedProxies();
+  return isTaken;
 }
 
 vtkSMSourceProxy* remeshOf(vtkSMSourceProxy* surface, vtkSMProxy* active)

@@ -18,6 +18,9 @@ namespace quadrille
 
 bool isQuadRemesh(vtkSMProxy* proxy);
 
+/// Whether a Quad Remesh takes what the source gives.
+bool isSurface(vtkSMSourceProxy* source);
+
 /// The Quad Remesh that what is drawn on a surface is for: the surface is its output or its input, with filters between
 /// or without; of several the active one, else the one made last. Null where there is none.
 vtkSMSourceProxy* remeshOf(vtkSMSourceProxy* surface, vtkSMProxy* active);

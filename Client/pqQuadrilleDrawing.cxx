@@ -8,10 +8,8 @@
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
-#include "pqObjectBuilder.h"
 #include "pqPipelineSource.h"
 #include "pqRenderView.h"
-#include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "vtkCommand.h"
 #include "vtkMath.h"
@@ -24,8 +22,6 @@
 #include <QApplication>
 #include <QKeyEvent>
 #include <QMainWindow>
-#include <QMessageBox>
-#include <QPushButton>
 #include <QStatusBar>
 
 #include <algorithm>
@@ -390,8 +386,9 @@ void pqQuadrilleDrawing::finish()
     vtkSMSourceProxy* filter = quadrille::remeshOf(surface, active ? active->getProxy() : nullptr);
     if (!filter)
     {
-      this->stopDrawing();
-      this->offerRemesh();
+      say("There is no Quad Remesh of this surface: select it in the pipeline, then press Quad "
+          "Remesh in "
+          "this tool bar.");
     }
     else if (this->Current == Tool::Valence)
     {
@@ -799,41 +796,4 @@ void pqQuadrilleDrawing::removeLast()
     view->forceRender();
   }
   say(QString("%1 was taken away. Ctrl+Z brings it back.").arg(name));
-}
-
-//-----------------------------------------------------------------------------
-void pqQuadrilleDrawing::offerRemesh()
-{
-  auto* model = pqApplicationCore::instance()->getServerManagerModel();
-  auto* source = model->findItem<pqPipelineSource*>(this->Surface);
-  if (!source)
-  {
-    say("This is drawn for a Quad Remesh: select the surface, then Filters > Quadrille > Quad "
-        "Remesh.");
-    return;
-  }
-  QMessageBox question(QMessageBox::Question, "Quadrille",
-    QString("%1 has no Quad Remesh yet, for which constraints are drawn.").arg(source->getSMName()),
-    QMessageBox::Cancel, pqCoreUtilities::mainWidget());
-  question.setObjectName("QuadrilleOffer");
-  QPushButton* make = question.addButton("Make Quads", QMessageBox::AcceptRole);
-  question.setDefaultButton(make);
-  question.exec();
-  if (question.clickedButton() != make || !this->View)
-  {
-    return;
-  }
-  BEGIN_UNDO_SET("Quad Remesh");
-  pqPipelineSource* filter = pqApplicationCore::instance()->getObjectBuilder()->createFilter(
-    "filters", "QuadRemesh", source);
-  if (filter)
-  {
-    filter->setModifiedState(pqProxy::UNMODIFIED);
-    vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-    controller->Show(filter->getSourceProxy(), 0, this->viewProxy());
-    controller->SetVisibility(source->getSourceProxy(), 0, this->viewProxy(), false);
-  }
-  END_UNDO_SET();
-  this->View->forceRender();
-  say("These are the quads; what is drawn now is for them.");
 }

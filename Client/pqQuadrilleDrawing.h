@@ -102,7 +102,6 @@ private:
   void showQuads(vtkSMSourceProxy* filter);
   /// Makes the quads anew and says what became of the constraint of this source.
   void execute(vtkSMSourceProxy* filter, const std::string& source);
-  void offerRemesh();
 
   quadrille::Pixel mouse() const;
   double pixelRatio() const;

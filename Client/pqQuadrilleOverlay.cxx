@@ -11,6 +11,7 @@ namespace
 {
 
 constexpr qreal kRing = 9; // pixels
+constexpr qreal kHandle = 7;
 
 const QColor kLine(255, 140, 0); // as the orange of what is asked for in the guide's pictures
 const QColor kRim(20, 20, 20, 160);
@@ -31,7 +32,20 @@ pqQuadrilleOverlay::pqQuadrilleOverlay(QWidget* view) : Superclass(view)
 void pqQuadrilleOverlay::setPath(const QPolygonF& path)
 {
   this->Path = path;
-  this->setVisible(!path.isEmpty());
+  this->showWhatThereIs();
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleOverlay::setRings(const QPolygonF& centres)
+{
+  this->Rings = centres;
+  this->showWhatThereIs();
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleOverlay::showWhatThereIs()
+{
+  this->setVisible(!this->Path.isEmpty() || !this->Rings.isEmpty());
   this->raise();
   this->update();
 }
@@ -47,6 +61,10 @@ void pqQuadrilleOverlay::paintEvent(QPaintEvent*)
     round.setCapStyle(Qt::RoundCap);
     round.setJoinStyle(Qt::RoundJoin);
     painter.setPen(round);
+    for (const QPointF& centre : this->Rings)
+    {
+      painter.drawEllipse(centre, kHandle, kHandle);
+    }
     if (this->Path.size() == 1)
     {
       painter.drawEllipse(this->Path.front(), kRing, kRing);

@@ -18,6 +18,8 @@ public:
 
   /// In pixels of the widget. A path of one pixel is drawn as a ring.
   void setPath(const QPolygonF& path);
+  /// Round points that can be dragged.
+  void setRings(const QPolygonF& centres);
 
 protected:
   void paintEvent(QPaintEvent* event) override;
@@ -26,7 +28,10 @@ protected:
 private:
   Q_DISABLE_COPY(pqQuadrilleOverlay)
 
+  void showWhatThereIs();
+
   QPolygonF Path;
+  QPolygonF Rings;
 };
 
 #endif

@@ -2,7 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadrilleToolBar.h"
 
+#include "RemeshConstraints.h"
 #include "pqQuadrilleDrawing.h"
+
+#include "pqActiveObjects.h"
+#include "pqApplicationCore.h"
+#include "pqObjectBuilder.h"
+#include "pqPipelineSource.h"
+#include "pqServerManagerModel.h"
+#include "pqUndoStack.h"
+#include "pqView.h"
+#include "vtkNew.h"
+#include "vtkSMParaViewPipelineControllerWithRendering.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMViewProxy.h"
 
 #include <QAction>
 #include <QIcon>
@@ -28,8 +41,7 @@ const Button kButtons[] = {
     "Move: drag an irregular vertex (a ball) over the surface; onto another one it joins with it" },
   { pqQuadrilleDrawing::Tool::Connect, "Connect",
     "Connect: click on two irregular vertices (balls), or drag from one to the other; a straight "
-    "chain of edges joins "
-    "them" },
+    "chain of edges joins them" },
   { pqQuadrilleDrawing::Tool::Loop, "Loop",
     "Loop: drag across a body for a chain of edges that closes round it, or back to where the drag "
     "began" },
@@ -37,41 +49,192 @@ const Button kButtons[] = {
     "Feature: drag over the surface; the line becomes edges of the quads" },
 };
 
+constexpr const char* kHelp = "QuadrilleHelp"; // property of an action: what it does
+
+/// Grey with the reason, or not where there is none.
+void allow(QAction* action, const QString& reasonNot)
+{
+  const QString help = action->property(kHelp).toString();
+  action->setEnabled(reasonNot.isEmpty());
+  action->setToolTip(reasonNot.isEmpty() ? help : help + ".\n\nNot now: " + reasonNot);
+}
+
+/// Why no quads can be made of what is selected; empty where they can.
+QString whyNoQuads(pqPipelineSource* selected)
+{
+  if (!selected)
+  {
+    return "there is no surface: open one with File > Open, and Apply.";
+  }
+  if (selected->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    return selected->getSMName() + " is not applied yet.";
+  }
+  if (!quadrille::isSurface(selected->getSourceProxy()))
+  {
+    return selected->getSMName() + " gives no surface: select one in the pipeline.";
+  }
+  return {};
+}
+
+/// The Quad Remesh that what is selected in the pipeline belongs to.
+vtkSMSourceProxy* filterOf(pqPipelineSource* selected)
+{
+  vtkSMSourceProxy* proxy = selected ? selected->getSourceProxy() : nullptr;
+  return quadrille::remeshOf(proxy, proxy);
+}
+
+/// Why nothing can be drawn; empty where it can.
+QString whyNoDrawing(pqPipelineSource* selected)
+{
+  if (vtkSMSourceProxy* filter = filterOf(selected))
+  {
+    auto* model = pqApplicationCore::instance()->getServerManagerModel();
+    auto* source = model->findItem<pqPipelineSource*>(filter);
+    return source && source->modifiedState() == pqProxy::UNINITIALIZED
+      ? source->getSMName() + " is not applied yet."
+      : QString();
+  }
+  return selected ? selected->getSMName() +
+      " has no Quad Remesh: select one in the pipeline, or make one with the first button."
+                  : QString("there is no Quad Remesh: the first button makes one.");
+}
+
 } // namespace
 
-pqQuadrilleToolBar::pqQuadrilleToolBar(QWidget* parent) : Superclass(parent)
+pqQuadrilleToolBar::pqQuadrilleToolBar(QWidget* parent)
+  : Superclass(parent), Drawing(new pqQuadrilleDrawing(this))
 {
   this->setWindowTitle("Quadrille");
   this->setObjectName("QuadrilleToolBar");
-  auto* drawing = new pqQuadrilleDrawing(this);
-  drawing->setObjectName("QuadrilleDrawing");
+  this->Drawing->setObjectName("QuadrilleDrawing");
+  this->Remesh = this->add("Remesh",
+    "Quad Remesh: makes about 5,000 quads of what is selected in the pipeline; its panel sets "
+    "another number");
+  QObject::connect(this->Remesh, &QAction::triggered, this, &pqQuadrilleToolBar::makeQuads);
+  this->addSeparator();
+  this->addTools();
+  this->addSeparator();
+  this->addValence();
+  this->Remove = this->add("Remove", "Remove Last: takes away the constraint that was made last");
+  QObject::connect(
+    this->Remove, &QAction::triggered, this->Drawing, &pqQuadrilleDrawing::removeLast);
+  this->watchPipeline();
+  this->refresh();
+}
+
+//-----------------------------------------------------------------------------
+QAction* pqQuadrilleToolBar::add(const QString& name, const QString& help)
+{
+  QAction* action = this->addAction(QIcon(":/Quadrille/Icons/" + name.toLower() + ".svg"), name);
+  action->setObjectName("Quadrille" + name);
+  action->setProperty(kHelp, help);
+  return action;
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleToolBar::addTools()
+{
   for (const Button& button : kButtons)
   {
-    const QString name = button.name;
-    QAction* action = this->addAction(QIcon(":/Quadrille/Icons/" + name.toLower() + ".svg"), name);
-    action->setObjectName("Quadrille" + name);
-    action->setToolTip(button.help);
+    QAction* action = this->add(button.name, button.help);
     action->setCheckable(true);
     const pqQuadrilleDrawing::Tool tool = button.tool;
-    QObject::connect(action, &QAction::triggered, drawing,
-      [drawing, tool](bool isDown)
-      { drawing->setTool(isDown ? tool : pqQuadrilleDrawing::Tool::None); });
-    QObject::connect(drawing, &pqQuadrilleDrawing::toolChanged, action,
+    QObject::connect(action, &QAction::triggered, this->Drawing,
+      [this, tool](bool isDown)
+      { this->Drawing->setTool(isDown ? tool : pqQuadrilleDrawing::Tool::None); });
+    QObject::connect(this->Drawing, &pqQuadrilleDrawing::toolChanged, action,
       [action, tool](pqQuadrilleDrawing::Tool now) { action->setChecked(now == tool); });
+    this->Tools << action;
   }
-  this->addSeparator();
-  auto* valence = new QSpinBox(this);
-  valence->setObjectName("QuadrilleValenceNumber");
-  valence->setPrefix("Valence ");
-  valence->setRange(2, 8);
-  valence->setValue(drawing->valence());
-  valence->setToolTip("How many quads meet where Valence is clicked");
-  this->addWidget(valence);
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleToolBar::addValence()
+{
+  this->Valence = new QSpinBox(this);
+  this->Valence->setObjectName("QuadrilleValenceNumber");
+  this->Valence->setPrefix("Valence ");
+  this->Valence->setRange(2, 8);
+  this->Valence->setValue(this->Drawing->valence());
+  this->Valence->setToolTip("How many quads meet where Valence is clicked");
+  this->addWidget(this->Valence);
+  QObject::connect(this->Valence, QOverload<int>::of(&QSpinBox::valueChanged), this->Drawing,
+    &pqQuadrilleDrawing::setValence);
   QObject::connect(
-    valence, QOverload<int>::of(&QSpinBox::valueChanged), drawing, &pqQuadrilleDrawing::setValence);
-  QObject::connect(drawing, &pqQuadrilleDrawing::valenceChanged, valence, &QSpinBox::setValue);
-  QAction* remove = this->addAction(QIcon(":/Quadrille/Icons/remove.svg"), "Remove Last");
-  remove->setObjectName("QuadrilleRemoveLast");
-  remove->setToolTip("Takes away the constraint that was made last");
-  QObject::connect(remove, &QAction::triggered, drawing, &pqQuadrilleDrawing::removeLast);
+    this->Drawing, &pqQuadrilleDrawing::valenceChanged, this->Valence, &QSpinBox::setValue);
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleToolBar::watchPipeline()
+{
+  this->Refresh.setSingleShot(true);
+  this->Refresh.setInterval(0);
+  QObject::connect(&this->Refresh, &QTimer::timeout, this, &pqQuadrilleToolBar::refresh);
+  const auto later = [this] { this->Refresh.start(); };
+  QObject::connect(&pqActiveObjects::instance(), &pqActiveObjects::sourceChanged, this, later);
+  auto* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::sourceAdded, this, later);
+  QObject::connect(model, &pqServerManagerModel::sourceRemoved, this, later);
+  QObject::connect(model,
+    QOverload<pqPipelineSource*, pqPipelineSource*, int>::of(
+      &pqServerManagerModel::connectionAdded),
+    this, later);
+  QObject::connect(model,
+    QOverload<pqPipelineSource*, pqPipelineSource*, int>::of(
+      &pqServerManagerModel::connectionRemoved),
+    this, later);
+  QObject::connect(model, &pqServerManagerModel::dataUpdated, this, later);
+  QObject::connect(model, &pqServerManagerModel::modifiedStateChanged, this, later);
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleToolBar::refresh()
+{
+  pqPipelineSource* selected = pqActiveObjects::instance().activeSource();
+  allow(this->Remesh, whyNoQuads(selected));
+  const QString reasonNot = whyNoDrawing(selected);
+  for (QAction* action : this->Tools)
+  {
+    allow(action, reasonNot);
+  }
+  allow(this->Remove,
+    reasonNot.isEmpty() && !quadrille::lastConstraint(filterOf(selected))
+      ? QString("this Quad Remesh has no constraint.")
+      : reasonNot);
+  this->Valence->setEnabled(reasonNot.isEmpty());
+  if (!reasonNot.isEmpty() && this->Drawing->tool() != pqQuadrilleDrawing::Tool::None)
+  {
+    this->Drawing->setTool(pqQuadrilleDrawing::Tool::None);
+  }
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleToolBar::makeQuads()
+{
+  pqPipelineSource* surface = pqActiveObjects::instance().activeSource();
+  pqView* view = pqActiveObjects::instance().activeView();
+  if (!surface)
+  {
+    return;
+  }
+  BEGIN_UNDO_SET("Quad Remesh");
+  pqPipelineSource* filter = pqApplicationCore::instance()->getObjectBuilder()->createFilter(
+    "filters", "QuadRemesh", surface);
+  if (filter)
+  {
+    filter->setModifiedState(pqProxy::UNMODIFIED);
+    vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+    vtkSMViewProxy* shownIn = view ? view->getViewProxy() : nullptr;
+    for (unsigned int port = 0; port < filter->getSourceProxy()->GetNumberOfOutputPorts(); ++port)
+    {
+      controller->ShowInPreferredView(filter->getSourceProxy(), static_cast<int>(port), shownIn);
+    }
+    if (shownIn)
+    {
+      controller->SetVisibility(surface->getSourceProxy(), 0, shownIn, false);
+    }
+  }
+  END_UNDO_SET();
+  pqApplicationCore::instance()->render();
 }

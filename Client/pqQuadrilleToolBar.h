@@ -3,9 +3,17 @@
 #ifndef pqQuadrilleToolBar_h
 #define pqQuadrilleToolBar_h
 
+#include <QList>
+#include <QString>
+#include <QTimer>
 #include <QToolBar>
 
-/// The drawing tools: a button for each, of which one at most is down.
+class pqQuadrilleDrawing;
+class QAction;
+class QSpinBox;
+
+/// A button that makes quads of what is selected in the pipeline, and the drawing tools: a button for each, of which
+/// one at most is down. Buttons that can do nothing now are grey, and their tool tips say why.
 class pqQuadrilleToolBar : public QToolBar
 {
   Q_OBJECT
@@ -16,6 +24,21 @@ public:
 
 private:
   Q_DISABLE_COPY(pqQuadrilleToolBar)
+
+  QAction* add(const QString& name, const QString& help);
+  void addTools();
+  void addValence();
+  void watchPipeline();
+  /// Which buttons can do something.
+  void refresh();
+  void makeQuads();
+
+  pqQuadrilleDrawing* Drawing;
+  QAction* Remesh;
+  QList<QAction*> Tools;
+  QAction* Remove = nullptr;
+  QSpinBox* Valence = nullptr;
+  QTimer Refresh; ///< the pipeline changes in several steps
 };
 
 #endif

@@ -26,11 +26,21 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkQuadRemesh);
+
+namespace
+{
+
+/// Numbers of a block's report: what would mend it.
+constexpr const char* kMendedBySmaller = "MendedBySmaller"; // quads
+constexpr const char* kIsTooLarge = "IsTooLarge";
+
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkQuadRemesh::vtkQuadRemesh()
@@ -215,6 +225,7 @@ void vtkQuadRemesh::TellRun(quadrille::Block& block, const quadrille::RemeshResu
   const quadrille::FailedParts& failed = result.failed;
   if (failed.components > 0)
   {
+    report.numbers[kMendedBySmaller] = 1;
     report.numbers["ComponentsWithoutQuads"] = static_cast<double>(failed.components);
     report.certificate =
       failed.countText() + ", without a map; of the others: " + report.certificate;
@@ -226,9 +237,47 @@ void vtkQuadRemesh::TellRun(quadrille::Block& block, const quadrille::RemeshResu
     problems.failed = failed.places;
     problems.surface = block.state->lastResult.empty() ? block.input() : nullptr;
     problems.words = { result.status.message };
+    if (result.status.code != quadrille::StatusCode::Cancelled)
+    {
+      const bool isLimit = result.status.code == quadrille::StatusCode::TooLarge;
+      report.numbers[isLimit ? kIsTooLarge : kMendedBySmaller] = 1;
+    }
     block.output(GetProblemPort())->ShallowCopy(quadrille::writeProblems(problems));
   }
   quadrille::requireOk(result.status, "remeshing");
+}
+
+//------------------------------------------------------------------------------
+const char* vtkQuadRemesh::GetRemedyText()
+{
+  std::ostringstream text;
+  const vtkIdType target = this->GetTargetQuads();
+  constexpr vtkIdType ofHalfTheLength = 4; // as many quads
+  const bool helpsSmaller =
+    this->SumOverBlocks(kMendedBySmaller) > 0 || this->SumOverBlocks("InvertedQuads") > 0;
+  if (this->SumOverBlocks(kIsTooLarge) > 0)
+  {
+    if (target > this->MaximumNumberOfQuads)
+    {
+      text << "MaximumNumberOfQuads " << target;
+    }
+  }
+  else if (helpsSmaller && target <= this->MaximumNumberOfQuads / ofHalfTheLength)
+  {
+    switch (this->GetTargetType())
+    {
+      case TARGET_EDGE_LENGTH:
+        text << "EdgeLength " << this->GetEdgeLength() / 2;
+        break;
+      case TARGET_RELATIVE_EDGE_LENGTH:
+        text << "RelativeEdgeLength " << this->GetRelativeEdgeLength() / 2;
+        break;
+      default:
+        text << "NumberOfQuads " << ofHalfTheLength * this->GetNumberOfQuads();
+    }
+  }
+  this->RemedyText = text.str();
+  return this->RemedyText.c_str();
 }
 
 //------------------------------------------------------------------------------

@@ -478,6 +478,10 @@ public:
   vtkIdType GetActualQuads() const { return this->CountOverBlocks("ActualQuads"); }
   /// Number of quads that the last execution aimed at.
   vtkIdType GetTargetQuads() const { return this->CountOverBlocks("TargetQuads"); }
+  /// The property, and its value, with which another execution may mend what is wrong with the last one:
+  /// "NumberOfQuads 20000". Quads that are half as long are four times as many; where a limit was in the way it is the
+  /// limit. Empty where all is well, and where no property of its own can mend it.
+  const char* GetRemedyText();
   /// Connected components that the last execution has left out, see FailedComponents.
   vtkIdType GetComponentsWithoutQuads() const
   {
@@ -627,6 +631,7 @@ private:
   int CellDataFrom = CELL_DATA_FROM_CENTRE;
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
+  std::string RemedyText;
 };
 
 #endif

@@ -204,6 +204,7 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   problems.words = { defect };
   block.output(this->GetProblemPort())->ShallowCopy(quadrille::writeProblems(problems));
   block.state->report.hasDefect = !defect.empty();
+  block.state->report.numbers["InvertedQuads"] = static_cast<double>(problems.inverted.size());
   block.state->report.result = defect + resultText(result, written.irregular->GetNumberOfPoints()) +
     (defect.empty() && !result.quads.quads.empty() ? ", all valid" : "") + constraintText(words);
   block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());

@@ -449,29 +449,91 @@ void vtkSMQuadConstraintProxy::Follow()
     return;
   }
   this->IsBusy = true;
+  for (const PointsProperty& points : this->PointsProperties)
+  {
+    vtkSMUncheckedPropertyHelper helper(this, points.Name.c_str());
+    this->SendPoints(points, valuesOf(helper));
+  }
+  this->ShowPreview(filter);
+  this->IsBusy = false;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMQuadConstraintProxy::SendPoints(
+  const PointsProperty& points, const std::vector<double>& coordinates)
+{
+  if (points.Shape == "begin" || points.Shape == "end" || points.Shape == "point")
+  {
+    invoke(this, points.Shape == "end" ? "SetPoint2" : "SetPoint1", coordinates[0], coordinates[1],
+      coordinates[2]);
+    return;
+  }
+  invoke(this, "SetNumberOfPoints", static_cast<vtkIdType>(coordinates.size() / kCoordinates));
+  for (std::size_t i = 0; i + 2 < coordinates.size(); i += kCoordinates)
+  {
+    invoke(this, "SetPoint", static_cast<vtkIdType>(i / kCoordinates), coordinates[i],
+      coordinates[i + 1], coordinates[i + 2]);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMQuadConstraintProxy::ShowPreview(vtkSMProxy* filter)
+{
   this->IsFollowing = true;
   this->Filter = filter;
+  invoke(filter, "SetPreview", 1);
+  this->MarkModified(this);
+  updateViews(this->GetSessionProxyManager());
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMQuadConstraintProxy::PreviewWith(const std::vector<double>& coordinates)
+{
+  vtkSMProxy* filter = this->ConnectedFilter();
+  if (this->IsBusy || !filter || !hasPreview(filter))
+  {
+    return false;
+  }
+  this->IsBusy = true;
+  auto next = coordinates.begin();
+  for (const PointsProperty& points : this->PointsProperties)
+  {
+    const auto end =
+      next + vtkSMUncheckedPropertyHelper(this, points.Name.c_str()).GetNumberOfElements();
+    this->SendPoints(points, std::vector<double>(next, end));
+    next = end;
+  }
+  this->ShowPreview(filter);
+  this->IsBusy = false;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> vtkSMQuadConstraintProxy::GetShownPoints()
+{
+  std::vector<double> coordinates;
   for (const PointsProperty& points : this->PointsProperties)
   {
     vtkSMUncheckedPropertyHelper helper(this, points.Name.c_str());
     const std::vector<double> values = valuesOf(helper);
-    if (points.Shape == "begin" || points.Shape == "end" || points.Shape == "point")
-    {
-      invoke(
-        this, points.Shape == "end" ? "SetPoint2" : "SetPoint1", values[0], values[1], values[2]);
-      continue;
-    }
-    invoke(this, "SetNumberOfPoints", static_cast<vtkIdType>(values.size() / kCoordinates));
-    for (std::size_t i = 0; i + 2 < values.size(); i += kCoordinates)
-    {
-      invoke(this, "SetPoint", static_cast<vtkIdType>(i / kCoordinates), values[i], values[i + 1],
-        values[i + 2]);
-    }
+    coordinates.insert(coordinates.end(), values.begin(), values.end());
   }
-  invoke(filter, "SetPreview", 1);
-  this->MarkModified(this);
-  updateViews(manager);
-  this->IsBusy = false;
+  return coordinates;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMQuadConstraintProxy::SetPoints(const std::vector<double>& coordinates)
+{
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this);
+  const double* next = coordinates.data();
+  for (const PointsProperty& points : this->PointsProperties)
+  {
+    vtkSMUncheckedPropertyHelper shown(this, points.Name.c_str());
+    const unsigned int count = shown.GetNumberOfElements();
+    vtkSMPropertyHelper(this, points.Name.c_str()).Set(next, count);
+    next += count;
+  }
+  this->UpdateVTKObjects();
 }
 
 //------------------------------------------------------------------------------

@@ -53,6 +53,19 @@ public:
   /// Called when the proxy is made, see vtkSMQuadConstraintPlacement. Properties that were set since then stay.
   void PlaceOnSurface(vtkMTimeType made);
 
+  /// The coordinates of all its points, as the panel shows them, applied or not.
+  std::vector<double> GetShownPoints();
+
+  /// Sets all points, also for a trace.
+  void SetPoints(const std::vector<double>& coordinates);
+
+  /// The Quad Remesh that has it as a constraint; null where there is none.
+  vtkSMProxy* GetFilter() { return this->ConnectedFilter(); }
+
+  /// Makes a preview of the quads with other points, which do not become those of the properties; it ends when
+  /// properties are applied. Whether there is one.
+  bool PreviewWith(const std::vector<double>& coordinates);
+
 protected:
   vtkSMQuadConstraintProxy();
   ~vtkSMQuadConstraintProxy() override;
@@ -87,6 +100,8 @@ private:
   bool IsPlaced();
   void Attach();
   vtkSMProxy* ConnectedFilter();
+  void SendPoints(const PointsProperty& points, const std::vector<double>& coordinates);
+  void ShowPreview(vtkSMProxy* filter);
   bool IsChanging(); ///< what the panel shows is not applied yet
   void Follow();
   void EndFollowing();

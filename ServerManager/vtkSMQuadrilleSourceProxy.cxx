@@ -75,29 +75,36 @@ void makeOnDemand(vtkPVXMLElement* hints, int port, vtkSMProxy* filter)
   }
 }
 
-/// When there are cells with the array: ParaView chooses colours when a representation is made, and not again; set
-/// before, it warns that the array has no range, and shows a legend of nothing.
-void applyColourHints(
-  vtkPVXMLElement* hints, int port, vtkSMProxy* representation, vtkSMSessionProxyManager* manager)
+/// The array of cells by which an output is to be coloured; null where the hints name none.
+const char* colouringArray(vtkPVXMLElement* hints, int port)
 {
   for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
   {
     vtkPVXMLElement* hint = hints->GetNestedElement(i);
     int wanted = -1;
-    const char* array = hint->GetAttribute("cells");
-    if (std::strcmp(hint->GetName(), "Colour") != 0 || !array ||
-      !hint->GetScalarAttribute("port", &wanted) || wanted != port ||
-      !representation->GetProperty("ColorArrayName") || !representation->GetProperty("LookupTable"))
+    if (std::strcmp(hint->GetName(), "Colour") == 0 && hint->GetScalarAttribute("port", &wanted) &&
+      wanted == port)
     {
-      continue;
+      return hint->GetAttribute("cells");
     }
-    vtkSMPropertyHelper(representation, "ColorArrayName")
-      .SetInputArrayToProcess(vtkDataObject::CELL, array);
-    const std::string table = std::string(array) + ".PVLookupTable";
-    vtkSMPropertyHelper(representation, "LookupTable")
-      .Set(manager->GetProxy("lookup_tables", table.c_str()));
-    representation->UpdateVTKObjects();
   }
+  return nullptr;
+}
+
+/// When there are cells with the array: ParaView chooses colours when a representation is made, and not again; set
+/// before, it warns that the array has no range, and shows a legend of nothing.
+void colour(vtkSMProxy* representation, const char* array, vtkSMSessionProxyManager* manager)
+{
+  if (!representation->GetProperty("ColorArrayName") || !representation->GetProperty("LookupTable"))
+  {
+    return;
+  }
+  vtkSMPropertyHelper(representation, "ColorArrayName")
+    .SetInputArrayToProcess(vtkDataObject::CELL, array);
+  const std::string table = std::string(array) + ".PVLookupTable";
+  vtkSMPropertyHelper(representation, "LookupTable")
+    .Set(manager->GetProxy("lookup_tables", table.c_str()));
+  representation->UpdateVTKObjects();
 }
 
 /// ParaView looks for the cell that it picks under the mouse in the first output, whatever output it was drawn of.
@@ -198,21 +205,6 @@ void makeColourMaps(vtkPVXMLElement* hints, vtkSMSessionProxyManager* manager)
   }
 }
 
-bool isColouredByHint(vtkPVXMLElement* hints, int port)
-{
-  for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
-  {
-    int wanted = -1;
-    vtkPVXMLElement* hint = hints->GetNestedElement(i);
-    if (std::strcmp(hint->GetName(), "Colour") == 0 && hint->GetScalarAttribute("port", &wanted) &&
-      wanted == port)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 bool isRepresentation(vtkSMProxy* proxy)
 {
   const char* group = proxy ? proxy->GetXMLGroup() : nullptr;
@@ -260,7 +252,8 @@ void vtkSMQuadrilleSourceProxy::PostUpdateData(bool usingCache)
   {
     vtkSMProxy* consumer = this->GetConsumerProxy(i);
     const int port = connectedPort(this->GetConsumerProperty(i), this);
-    if (port < 0 || !isRepresentation(consumer) || !isColouredByHint(this->GetHints(), port) ||
+    const char* array = port < 0 ? nullptr : colouringArray(this->GetHints(), port);
+    if (!array || !isRepresentation(consumer) ||
       this->GetDataInformation(static_cast<unsigned int>(port))->GetNumberOfCells() == 0)
     {
       continue;
@@ -268,7 +261,7 @@ void vtkSMQuadrilleSourceProxy::PostUpdateData(bool usingCache)
     const vtkSMPropertyHelper colours(consumer, "ColorArrayName", true);
     if (colours.GetNumberOfElements() < 5 || std::strlen(colours.GetAsString(4)) == 0)
     {
-      applyColourHints(this->GetHints(), port, consumer, this->GetSessionProxyManager());
+      colour(consumer, array, this->GetSessionProxyManager());
     }
   }
 }

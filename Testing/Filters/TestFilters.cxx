@@ -26,6 +26,7 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <string>
 
 namespace quadrille
@@ -438,12 +439,14 @@ TEST(QuadRemeshFailure, ShowsTheInputWhereNothingElseIs)
     << filter->GetVerdict();
   EXPECT_EQ(countProblems(filter)[0], input->GetNumberOfCells());
   EXPECT_GT(countProblems(filter)[1], 0);
+  EXPECT_STREQ(filter->GetRemedyText(), "NumberOfQuads 160"); // half the edge length
   // So it is where a property is at fault; a success takes it away.
   filter->SetTargetTypeToEdgeLength();
   filter->SetEdgeLength(-1);
   filter->Update();
   EXPECT_EQ(countProblems(filter)[0], input->GetNumberOfCells());
   EXPECT_EQ(countProblems(filter)[1], 0);
+  EXPECT_STREQ(filter->GetRemedyText(), "");
   input->GetCellData()->RemoveArray("FeatureEdges");
   filter->SetEdgeLength(0.3);
   filter->Update();
@@ -451,6 +454,33 @@ TEST(QuadRemeshFailure, ShowsTheInputWhereNothingElseIs)
   EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(8))->GetNumberOfCells(), 0);
   EXPECT_NE(std::string(filter->GetVerdict()).find(", all valid"), std::string::npos)
     << filter->GetVerdict();
+  EXPECT_STREQ(filter->GetRemedyText(), "");
+}
+
+TEST(QuadRemeshFailure, TellsThePropertyThatMendsIt)
+{
+  const vtkSmartPointer<vtkPolyData> input = sphereAndOneWithoutMap();
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, input, 40);
+  EXPECT_EQ(filter->GetComponentsWithoutQuads(), 1);
+  EXPECT_STREQ(filter->GetRemedyText(), "NumberOfQuads 160");
+  // Quads that a limit forbids are no remedy.
+  filter->SetMaximumNumberOfQuads(2 * filter->GetTargetQuads());
+  filter->Update();
+  EXPECT_STREQ(filter->GetRemedyText(), "");
+  // A limit that was in the way is the remedy: with it there are quads.
+  filter->SetMaximumNumberOfQuads(5);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::TooLarge);
+  std::istringstream words(filter->GetRemedyText());
+  std::string property;
+  vtkIdType limit = 0;
+  words >> property >> limit;
+  EXPECT_EQ(property, "MaximumNumberOfQuads");
+  filter->SetMaximumNumberOfQuads(limit);
+  filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
 TEST(QuadRemeshFailure, EmptyInputIsAnErrorInASerialRun)

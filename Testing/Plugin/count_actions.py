@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws a constraint of each class in ParaView's real window, by mouse and keyboard, and counts the actions.
 
-  count_actions.py XVFB PARAVIEW [TASK...]
+  count_actions.py XVFB PARAVIEW OPENBOX [TASK...]
 
 A click, a key, a drag and a typed value are one action each. Each task begins with quads that are selected in the
 pipeline; afterwards the table of constraints must say that what was asked for is met. Screenshots are left in the
@@ -22,8 +22,7 @@ import test_gui
 
 ARTIFACTS = pathlib.Path(os.environ["QUADRILLE_ARTIFACTS"])
 WIDTH, HEIGHT = 1920, 1080
-MOST = {"stroke": 6, "valence": 5, "move": 4, "connection": 4, "loop": 7, "undo": 1, "mirror": 4, "follow": 3}
-SOURCES = ("Quad Connection", "Quad Feature Curve", "Quad Loop", "Quad Move", "Quad Stroke", "Quad Valence")
+MOST = {"stroke": 8, "valence": 7, "move": 6, "connection": 6, "loop": 9, "undo": 1, "mirror": 4, "follow": 5}
 
 
 def environment_of(window):
@@ -42,7 +41,6 @@ class Window:
         self.folder, self.display = folder, display
         self.question = folder / "question"
         self.actions = []
-        self.buttons = {}
         self.origin = (0, 0)
 
     def xdotool(self, *words):
@@ -101,7 +99,7 @@ class Window:
 
     def scroll(self, place, what):
         self.act("scroll " + what)
-        self.xdotool("mousemove", *place, "sleep", 0.1, "click", "--repeat", 8, "--delay", 30, 5)
+        self.xdotool("mousemove", *place, "sleep", 0.1, "click", "--repeat", 2, "--delay", 30, 5)
         self.ask("pass")
 
     def turn_round(self):
@@ -120,10 +118,17 @@ class Window:
         self.xdotool("type", text)
         self.ask("pass")
 
-    def button(self, name):
-        time.sleep(0.7)
-        self.find_buttons()  # the tool bars before them grow and shrink with what is selected
-        self.click(self.buttons[name], f"the button {name}")
+    def new(self, name):
+        """A source or filter, from the list that Ctrl+Space opens."""
+        self.act("key ctrl+space")
+        self.xdotool("mousemove", self.origin[0] + 400, self.origin[1] - 300, "key", "ctrl+space", "sleep", 0.7)
+        self.act(f"type {name}")
+        self.xdotool("type", "--delay", 20, name)
+        self.act("key Return")
+        self.xdotool("sleep", 0.7, "key", "Return", "sleep", 0.5)
+        wanted = name.replace(" ", "")
+        self.wait_until(f"simple.GetActiveSource().GetXMLName() == {wanted!r}")
+        time.sleep(0.5)
 
     def apply(self):
         self.key("alt+a", what="(Apply)")
@@ -141,21 +146,6 @@ class Window:
         x, y = self.value("tuple(interactor.GetEventPosition())")
         self.origin = (place[0] - x, place[1] + y)
 
-    def find_buttons(self):
-        """The last buttons of the second row of tool bars are those of the constraints, by the alphabet."""
-        rows = self.rows()
-        empty = 3 * (WIDTH - 10)
-        icons, start, last = [], None, 0
-        for x in range(WIDTH):
-            if any(rows[y][3 * x:3 * x + 3] != rows[y][empty:empty + 3] for y in range(70, 95)):
-                start, last = x if start is None else start, x
-            elif start is not None and x - last > 4:
-                icons.append((start, last))
-                start = None
-        icons = [(a, b) for a, b in icons if b - a >= 10]
-        for name, (a, b) in zip(SOURCES, icons[-len(SOURCES):]):
-            self.buttons[name] = ((a + b) // 2, 82)
-
     def find_by_change(self, first, second):
         """The right end of what looks different in the panel after the second of two pieces of code."""
         self.ask(first)
@@ -165,7 +155,7 @@ class Window:
         time.sleep(0.7)
         after = self.rows()
         self.ask(first)
-        panel = WIDTH // 6
+        panel = WIDTH // 6 - 60  # without its scroll bar
         changed = [(x, y) for y in range(HEIGHT // 3, HEIGHT) if before[y][:3 * panel] != after[y][:3 * panel]
                    for x in range(panel) if before[y][3 * x:3 * x + 3] != after[y][3 * x:3 * x + 3]]
         if not changed:
@@ -189,7 +179,7 @@ def met(window, kind):
 
 def stroke(window):
     places = [window.body(*p) for p in ((-0.5, 0.4), (-0.2, 0.25), (0.1, 0.1), (0.4, -0.02))]
-    window.button("Quad Stroke")
+    window.new("Quad Stroke")
     window.key("1", places[0])
     for place in places[1:]:
         window.key("2", place)
@@ -198,7 +188,7 @@ def stroke(window):
 
 
 def valence(window):
-    window.button("Quad Valence")
+    window.new("Quad Valence")
     field = window.find_by_change("v = simple.GetActiveSource(); v.Valence = 3", "v.Valence = 8")
     window.key("p", window.body(-0.2, 0.1))
     window.act("double click the field Valence")
@@ -231,7 +221,7 @@ def move(window):
             break
     else:
         raise SystemExit("FAILED: no irregular vertex can be moved")
-    window.button("Quad Move")
+    window.new("Quad Move")
     window.key("2", window.on_screen(target))
     window.key("1", pixels)
     window.apply()
@@ -247,7 +237,7 @@ def connection(window):
             break
     else:
         raise SystemExit("FAILED: no two irregular vertices can be connected")
-    window.button("Quad Connection")
+    window.new("Quad Connection")
     window.key("1", p[2])
     window.key("2", q[2])
     window.apply()
@@ -257,7 +247,7 @@ def connection(window):
 def loop(window):
     """Round the body: two places on this side, two on the other."""
     high, low = 0.35, -0.1
-    window.button("Quad Loop")
+    window.new("Quad Loop")
     window.key("1", window.on_screen((0, -0.35, high)))
     window.key("2", window.on_screen((0, -0.37, low)))
     window.turn_round()
@@ -269,7 +259,7 @@ def loop(window):
 
 def undo(window):
     before = window.value("fingerprint()")
-    window.button("Quad Valence")
+    window.new("Quad Valence")
     window.key("p", window.body(-0.2, 0.1))
     window.apply()
     if window.value("fingerprint()") == before:
@@ -297,7 +287,7 @@ def mirror(window):
 def follow(window):
     """No task of a bar: with Auto Apply on the quads follow a handle while it is dragged."""
     window.ask("set_auto_apply(True)")
-    window.button("Quad Valence")
+    window.new("Quad Valence")
     x, y = window.body(-0.2, 0.1)
     seen = [window.value("fingerprint()")]
     window.key("p", (x, y))
@@ -343,28 +333,30 @@ def run(window, tasks):
 
 
 def main():
-    xvfb, paraview = sys.argv[1:3]
-    tasks = sys.argv[3:] or list(TASKS)
+    xvfb, paraview, openbox = sys.argv[1:4]
+    tasks = sys.argv[4:] or list(TASKS)
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         server, display = private_display.start(xvfb, "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir", str(folder))
         window = Window(folder, display)
         environment = environment_of(window)
+        manager = subprocess.Popen([openbox], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         script = pathlib.Path(__file__).with_name("actions_script.py")
         with open(folder / "log", "w", encoding="utf-8") as output:
             process = subprocess.Popen([paraview, "--dr", f"--script={script}"], env=environment, stdout=output,
                                        stderr=subprocess.STDOUT)
         try:
             window.ask("pass", seconds=120)
-            window.xdotool("search", "--sync", "--onlyvisible", "--name", "ParaView", "windowsize", WIDTH, HEIGHT)
+            window.xdotool("search", "--sync", "--onlyvisible", "--name", "ParaView", "windowmove", 0, 0, "windowsize",
+                           WIDTH, HEIGHT - 40)
             time.sleep(2)
             bad = run(window, tasks)
         except BaseException:
             window.screenshot("failure")
             raise
         finally:
-            private_display.stop(process)
-            private_display.stop(server)
+            for started in (process, manager, server):
+                private_display.stop(started)
             print((folder / "log").read_text(encoding="utf-8"))
     if bad:
         sys.exit("FAILED: too many actions for " + ", ".join(bad))

@@ -51,7 +51,7 @@ class Session(test_places.Session):
                 icons.append((start, last))
                 start = None
         icons = [(a, b) for a, b in icons if b - a >= 10]
-        self.tools = {name: ((a + b) // 2, (top + bottom) // 2) for name, (a, b) in zip(TOOLS, icons)}
+        self.tools = {name: ((a + b) // 2, (top + bottom) // 2) for name, (a, b) in zip(("Remesh", *TOOLS), icons)}
 
     def take(self, name):
         """Presses the button of a tool; pressed again it leaves it."""
@@ -307,6 +307,86 @@ def check_undo(session, chance):
     return bad
 
 
+def saturation(session, name):
+    """Of the most colourful pixel of a button, 0 to 255."""
+    x, y = session.tools[name]
+    rows = session.rows()
+    pixels = [rows[v][3 * u:3 * u + 3] for v in range(y - 8, y + 9) for u in range(x - 8, x + 9)]
+    return max(max(p) - min(p) for p in pixels)
+
+
+def check_bar(session):
+    """Without a Quad Remesh the tools are grey and do nothing; the first button makes quads by one click."""
+    session.ask("pass")
+    grey = [saturation(session, name) for name in TOOLS]
+    session.take("Stroke")
+    x, y = session.middle()
+    camera = session.value("list(view.CameraPosition)")
+    session.xdotool("mousemove", x, y, "sleep", 0.1, "mousedown", 1, "mousemove", x + 40, y + 30, "sleep", 0.1,
+                    "mousemove", x + 90, y + 60, "sleep", 0.1, "mouseup", 1)
+    session.settle()
+    moved = session.value("list(view.CameraPosition)") != camera
+    session.shot("draw-bar-grey")
+    session.take("Remesh")
+    session.wait_for_quads()
+    session.xdotool("mousemove", *session.middle(), "sleep", 0.5)
+    coloured = [saturation(session, name) for name in TOOLS]
+    session.shot("draw-bar-quads")
+    fine = max(grey) < 30 and min(coloured) > 60 and moved
+    print(f"tool bar: saturation without a Quad Remesh {grey}, with it {coloured}; camera moved {moved}: "
+          f"{'fine' if fine else 'BAD'}", flush=True)
+    return not fine
+
+
+def check_handles(session, chance, count):
+    """The point of a selected constraint is dragged over the surface: it lies under the mouse, with a ring round it."""
+    bad = 0
+    for number in range(count):
+        session.ask("clear()")
+        test_places.random_view(session, chance)
+        session.take("Valence")
+        valence(session, chance)
+        session.xdotool("key", "Escape")
+        session.ask("simple.SetActiveSource(quads().Constraints[0])")
+        time.sleep(1)
+        start = session.value("pixel_of(constraints()[-1][1][0])")
+        ring = ring_pixels(session, start)
+        places = [p for p in session.places(chance, 12) if 40 < math.dist(p[0], start) < 250] or \
+            session.places(chance, 1)
+        goal, place = places[0]
+        before = session.value("bytes_of(quads())")
+        session.xdotool("mousemove", *session.screen([round(c) for c in start]), "sleep", 0.1, "mousedown", 1)
+        followed = 0
+        for k in range(1, 6):
+            session.xdotool("mousemove", *session.screen([round(a + (b - a) * k / 5) for a, b in zip(start, goal)]))
+            session.ask("pass")
+            followed += session.value("bytes_of(quads())") != before
+        session.shot(f"draw-handle-{number + 1}")
+        session.xdotool("mouseup", 1)
+        session.settle()
+        off = math.dist(session.drawn()[1][0], place) / session.edge
+        whole = session.value("quads().GetClientSideObject().GetPreview()") == 0
+        met, reason = session.word("valence") or (None, "no row")
+        after = ring_pixels(session, goal)
+        session.xdotool("mousemove", *session.middle(), "key", "ctrl+z", "sleep", 1)
+        session.settle()
+        back = session.value("bytes_of(quads())") == before
+        fine = off <= ALLOWED and whole and followed > 0 and ring > 15 and after > 15 and back
+        print(f"handle {number + 1}: {off:.3f} edge lengths off, met {met} {reason}; {followed} previews of 5, ring "
+              f"{ring} and {after} pixels, undone {back}{'' if fine else '  BAD'}", flush=True)
+        bad += not fine
+    session.ask("clear()")
+    return bad
+
+
+def ring_pixels(session, pixel):
+    """How many pixels in the orange of the rings there are round a pixel of the view."""
+    x, y = session.screen([round(c) for c in pixel])
+    rows = session.rows()
+    return sum(1 for v in range(y - 10, y + 11) for u in range(x - 10, x + 11)
+               if rows[v][3 * u] > 230 and 110 < rows[v][3 * u + 1] < 170 and rows[v][3 * u + 2] < 60)
+
+
 def check_trace(folder, options, chance):
     """A session of its own, recorded from File > Open on, makes the same quads in pvpython."""
     place = folder / "trace"
@@ -315,13 +395,21 @@ def check_trace(folder, options, chance):
     try:
         session.start()
         session.ask("smtrace.start_trace()")
-        session.open()
+        session.open_surface()
         session.find_tools()
+        bad = check_bar(session)
         session.look(270, 20)
         for name in ("Stroke", "Valence"):
             session.take(name)
             ACTIONS[name](session, chance)
         session.take("Valence")
+        session.ask("simple.SetActiveSource(list(quads().Constraints)[-1])")
+        start = tuple(round(c) for c in session.value("pixel_of(constraints()[-1][1][0])"))
+        before = session.drawn()[1]
+        session.drag([start, *[p[0] for p in session.places(chance, 1)]])
+        if session.drawn()[1] == before:
+            print("BAD: the point of a valence was not dragged")
+            bad += 1
         made = *session.value("bytes_of(quads())"), len(session.value("constraints()"))
         path = place / "trace.py"
         path.write_text(session.value("smtrace.stop_trace()"), encoding="utf-8")
@@ -332,8 +420,8 @@ def check_trace(folder, options, chance):
     print(f"trace: made {made}, replayed {again}", flush=True)
     if made != again or made[2] != 2:
         print(path.read_text(encoding="utf-8"))
-        return 1
-    return 0
+        return bad + 1
+    return bad
 
 
 def main():
@@ -360,6 +448,7 @@ def main():
                     bad += wrong if wrong > (1 - BAR) * options.places else 0
                 for check in (check_escape, check_camera, check_undo):
                     bad += check(session, random.Random(options.seed + 1))
+                bad += check_handles(session, random.Random(options.seed + 3), options.places)
             except BaseException:
                 session.shot("draw-failure")
                 raise

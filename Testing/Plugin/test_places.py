@@ -64,28 +64,26 @@ class Session(count_actions.Window):
     def look(self, azimuth, elevation):
         self.ask(f"look({azimuth}, {elevation})")
 
-    def new(self, name):
-        """By its name, as in the menus, from the list that Ctrl+Space opens."""
-        self.xdotool("mousemove", *self.middle(), "key", "ctrl+space", "sleep", 0.7)
-        self.xdotool("type", "--delay", 20, name)
-        self.xdotool("sleep", 0.7, "key", "Return", "sleep", 0.5)
-        wanted = name.replace(" ", "")
-        self.wait_until(f"simple.GetActiveSource().GetXMLName() == {wanted!r}")
-        time.sleep(0.5)
-
     def middle(self):
         return self.origin[0] + 400, self.origin[1] - 300
 
-    def open(self, quads=None, more="pass", wait="output(0).GetNumberOfCells() > 0"):
-        """File > Open, Apply, Quad Remesh, Apply. more: done before; wait: what is true afterwards."""
+    def open_surface(self):
+        """File > Open, Apply."""
         self.xdotool("mousemove", *self.middle(), "key", "ctrl+o", "sleep", 2)
         self.xdotool("type", "--delay", 20, str(self.surface))
         self.xdotool("sleep", 1, "key", "Return", "sleep", 1)
         self.wait_until("simple.GetActiveSource() is not None")
         self.apply()
+
+    def open(self, quads=None, more="pass", wait="output(0).GetNumberOfCells() > 0"):
+        """A surface and quads of it, by keyboard. more: done before; wait: what is true afterwards."""
+        self.open_surface()
         self.new("Quad Remesh")
         self.ask((f"quads().NumberOfQuads = {quads}; " if quads else "") + more)
         self.apply()
+        self.wait_for_quads(wait)
+
+    def wait_for_quads(self, wait="output(0).GetNumberOfCells() > 0"):
         self.wait_until(f"quads() is not None and {wait}", seconds=120)
         time.sleep(1)
         self.find_origin()

@@ -12,6 +12,7 @@ import math
 import pathlib
 import sys
 import tempfile
+import time
 import types
 
 import test_places
@@ -71,6 +72,50 @@ def problems(session):
         "range(data.GetNumberOfCells())]; print([all_kinds.count(k) for k in (0, 1, 2)])"))
 
 
+def verdict_colour(session):
+    """Of the verdict in the panel, and its left and lower end on the screen."""
+    rows = session.rows()
+    for name, colour in (("red", (0xf6, 0xd5, 0xd5)), ("orange", (0xfb, 0xe6, 0xc8)), ("green", (0xd6, 0xef, 0xd9))):
+        found = [(x, y) for y in range(450, len(rows)) for x in range(5, 200)
+                 if tuple(rows[y][3 * x:3 * x + 3]) == colour]
+        if len(found) > 500:
+            return name, min(x for x, _ in found), max(y for _, y in found)
+    return "none", 0, 0
+
+
+def press_under_verdict(session, row):
+    """A button: those under the verdict stand in rows."""
+    _, left, bottom = verdict_colour(session)
+    session.xdotool("mousemove", left + 30, bottom + 18 + 27 * row, "sleep", 0.2, "click", 1)
+    time.sleep(1)
+    for _ in range(2):
+        session.ask("pass", seconds=120)
+
+
+def check_buttons(session):
+    """Show leads to the place that fails, Apply sets the property that mends it; one undo takes that back."""
+    check(verdict_colour(session)[0] == "red", "the verdict on a failure is not red")
+    places = session.value("[output(8).GetPoint(output(8).GetCell(i).GetPointId(0)) for i in "
+                           "range(output(8).GetNumberOfVerts())]")
+    press_under_verdict(session, 0)
+    session.shot("problems-shown")
+    looked_at = session.value("list(view.CameraFocalPoint)")
+    check(min(math.dist(looked_at, p) for p in places) < 1e-6, f"Show looks at {looked_at}, of {places}")
+    x, y = (round(c) for c in session.value(f"tuple(pixel_of({tuple(looked_at)!r}))"))
+    x, y = session.screen((x, y))
+    middle = [session.rows()[y][3 * (x + d):3 * (x + d) + 3] for d in range(-3, 4)]
+    check(any(r > 60 and b > 60 and g < min(r, b) / 3 for r, g, b in middle), "the ball is not seen in the middle")
+    press_under_verdict(session, 1)
+    check(session.value("quads().NumberOfQuads") == 120, "Apply did not set four times the number of quads")
+    press_under_verdict(session, 1)
+    session.wait_until("output(0).GetNumberOfCells() > 0", seconds=60)
+    session.shot("problems-applied")
+    check(verdict_colour(session)[0] == "green", "the verdict on quads that are valid is not green")
+    check(session.value("quads().GetPropertyValue('Remedy')") in (None, ""), "there is a remedy where all is well")
+    session.xdotool("mousemove", *session.middle(), "key", "ctrl+z", "sleep", 1, "key", "ctrl+z", "sleep", 1)
+    session.wait_until("quads().NumberOfQuads == 30")
+
+
 def main():
     programs = types.SimpleNamespace(**dict(zip(("xvfb", "paraview", "openbox"), sys.argv[1:])))
     with tempfile.TemporaryDirectory() as folder:
@@ -91,7 +136,8 @@ def main():
             verdict = session.value("quads().GetPropertyValue('Verdict')")
             check(0 <= verdict.find("ask for smaller quads") < 80, "the verdict is " + verdict)
 
-            session.ask("quads().FailedComponents = 'Leave Out'; simple.Render(view)")
+            check_buttons(session)
+            session.ask("simple.ResetCamera(view); quads().FailedComponents = 'Leave Out'; simple.Render(view)")
             session.wait_until("output(0).GetNumberOfCells() > 0", seconds=60)
             session.shot("problems-some")
             without, fails, _ = problems(session)
