@@ -13,6 +13,7 @@
 #include "Pipeline/SizedSurface.h"
 #include "Pipeline/StageRecords.h"
 #include "Stages/Log.h"
+#include "Stages/MappedInput.h"
 #include "Stages/SharedLevels.h"
 #include "Transfer/Charts.h"
 #include "Transfer/ExpectedTurns.h"
@@ -231,6 +232,7 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
       alongGuides.reset();
     }
   }
+  const bool isAlongGuides = alongGuides.has_value();
   quadrille::TransferResult map = alongGuides
     ? std::move(*alongGuides)
     : quadrille::transferMap(surface.mesh, coarse, log, coarseUv, options);
@@ -273,6 +275,12 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   laps.lap("write", surface.mesh.faceCount(), surface.mesh.faceCount());
   this->SetStageRecords(laps.records.all());
   output->GetFieldData()->PassData(coarseData->GetFieldData());
+  if (isAlongGuides)
+  {
+    quadrille::addSmoothingGuides(
+      quadrille::guidesRoundRegions(surface.mesh, levels.intermediate, recipe.edgeLength), frame,
+      output);
+  }
   quadrille::addFrame(output, frame, surface.mesh.position);
   quadrille::addFields(output, quadrille::stageFields(laps.records.all()));
   quadrille::addFields(output, quadrille::certificateFields(certificate));

@@ -308,6 +308,7 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   options.smoothingSteps = this->SmoothingSteps;
   options.threads = this->NumberOfThreads;
   options.fixedVertices = quadrille::requestedVertices(input, mesh);
+  options.guides = quadrille::readSmoothingGuides(input, mesh, frame);
   options.progress = this->MakeProgress(0.0, 0.95);
   quadrille::ExtractionResult result =
     quadrille::extractQuads(mapped.meshInFrame(), uvInFrame, options);

@@ -360,6 +360,7 @@ ExtractionResult extractQuads(
     smoothing.fixedVertices = options.fixedVertices;
     smoothing.progress = [&options](double fraction, const std::string& text)
     { return !options.progress || options.progress(0.9 + 0.1 * fraction, text); };
+    smoothing.guides = options.guides;
     smoothQuads(mesh, result.mesh, smoothing);
     if (options.smoothingSteps > 0)
     {

@@ -8,6 +8,7 @@
 #include "Base/Progress.h"
 #include "Extraction/FeatureEnds.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/Requests.h"
 #include "Quads/QuadMesh.h"
 
 #include <string>
@@ -45,6 +46,7 @@ struct ExtractionOptions
   int smoothingSteps = 5;
   /// Vertices of the mesh, ascending, whose quad vertices smoothing must not move (irregular ones that were asked for).
   std::vector<Index> fixedVertices;
+  std::vector<FaceGuide> guides; ///< see SmoothingOptions
   /// Whether the map's certificate is valid (GridMap/Certificate.h): then edges are not checked again.
   bool mapIsCertified = false;
   const SurfaceShape* shape = nullptr; ///< shapeOf the mesh, where the caller has it

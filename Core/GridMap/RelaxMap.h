@@ -35,7 +35,7 @@ struct RelaxOptions
   /// The same for the multiplications of a factorization: by default about 40 s on one thread, a surface of 600,000 to
   /// 1,500,000 triangles.
   double maximumOperations = 2e11;
-  /// Directions that the isolines should keep; empty or #F.
+  /// Directions that the isolines should keep; empty or #F. In a region of them it is one family that keeps them.
   std::vector<Guide> guides;
   /// Empty or #H flags of boundary half-edges: in the map they move half a quad into the surface, so that an isoline
   /// becomes a line half way between two of them. Their ends slide along what they meet there. With at least one

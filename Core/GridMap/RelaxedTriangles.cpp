@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/RelaxedTriangles.h"
 
+#include "Base/Angles.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "GridMap/Certificate.h"
 #include "GridMap/MapShape.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
-#include "Numerics/IsotropicEnergy.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -30,14 +30,20 @@ constexpr double kLeastShrink = 0.1;
 constexpr int kHalvings = 12;
 /// Half a quad.
 constexpr std::int64_t kInset = kOne / 2;
-/// Strength of a guide of weight 1 against the energy, as in the map of the coarse level.
-constexpr double kGuideStrengthOfMap = 100;
+/// Strength of a guide of weight 1: isolines that are a degree off it cost as much as a stretch by 1.3.
+constexpr double kGuideStrengthOfMap = 1000;
+/// Three degrees: beyond that the pull of a guide grows no more, so that one that no map follows does not tear its
+/// neighbours along.
+constexpr double kGuideKneeOfMap = 0.05;
 
-/// The derivative by J of the component of J direction off its nearest axis.
-Jacobian offAxis(const Jacobian& j, const Vector2& direction)
+Vector2 imageOf(const Vector2& direction, const Jacobian& j)
 {
-  const Vector2 image = direction.x() * j.head<2>() + direction.y() * j.tail<2>();
-  const Vector2 normal = std::abs(image.x()) >= std::abs(image.y()) ? Vector2(0, 1) : Vector2(1, 0);
+  return direction.x() * j.head<2>() + direction.y() * j.tail<2>();
+}
+
+/// The derivative by J of normal^T J direction.
+Jacobian offAxis(const Vector2& normal, const Vector2& direction)
+{
   Jacobian result;
   result.head<2>() = direction.x() * normal;
   result.tail<2>() = direction.y() * normal;
@@ -246,9 +252,80 @@ void RelaxedTriangles::makeDirections()
     {
       const Vector2 inPlane(guide.direction.dot(along.normalized()),
         guide.direction.dot(normal.cross(along).normalized()));
-      directions_[f] = { inPlane, kGuideStrengthOfMap * guide.weight };
+      directions_[f] = { inPlane, Vector2::Zero(), kGuideStrengthOfMap * guide.weight };
     }
   }
+  chooseAxes();
+}
+
+/// By how many quarter turns the guide's cross in the face across h lies further, in the map, than that of the face of
+/// h: of its four directions the one that is nearest on the surface.
+int RelaxedTriangles::turnsAcross(Index h) const
+{
+  const Index other = mesh_.twin[h];
+  const auto against = [&](Index side)
+  {
+    const Index f = Mesh::face(side);
+    const Eigen::Matrix2d shape = flattenFace(mesh_, f);
+    const std::array<Vector2, 3> edges{ Vector2(shape.col(0)), Vector2(shape.col(1) - shape.col(0)),
+      Vector2(-shape.col(1)) };
+    const Vector2& edge = edges[side % 3];
+    const Vector2& g = directions_[f].direction;
+    return std::atan2(edge.x() * g.y() - edge.y() * g.x(), edge.dot(g));
+  };
+  // Seen from the other side, the edge runs the other way.
+  const double turn = against(other) + kPi - against(h);
+  return static_cast<int>(std::lround(turn / kRightAngle)) + transitionOf(mesh_, uv_, h).rotation;
+}
+
+/// Guides that hang together lie on one family of isolines, which turns with them: the one that needs less of a turn in
+/// all. Triangle by triangle the nearer one would be the other family where a map is still 45 degrees off.
+void RelaxedTriangles::chooseAxes()
+{
+  std::vector<std::int8_t> axis(mesh_.faceCount(), -1); // of the component's first face, carried on
+  for (Index first = 0; first < mesh_.faceCount(); ++first)
+  {
+    if (axis[first] >= 0 || !(directions_[first].strength > 0))
+    {
+      continue;
+    }
+    axis[first] = 0;
+    std::vector<Index> region{ first };
+    std::array<double, 2> off{ 0, 0 }; // of the two families
+    for (std::size_t i = 0; i < region.size(); ++i)
+    {
+      const Index f = region[i];
+      if (references_[f].weight > 0)
+      {
+        const Vector2 image = imageOf(directions_[f].direction, jacobian(f, cornersOf(f)));
+        const double weight = references_[f].weight * directions_[f].strength;
+        for (int k = 0; k < 2; ++k)
+        {
+          const double component = image[1 - (axis[f] ^ k)];
+          off[static_cast<std::size_t>(k)] += weight * component * component / image.squaredNorm();
+        }
+      }
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        const Index g = mesh_.isBoundary(h) ? kInvalidIndex : Mesh::face(mesh_.twin[h]);
+        if (g != kInvalidIndex && axis[g] < 0 && directions_[g].strength > 0)
+        {
+          axis[g] = static_cast<std::int8_t>((axis[f] + turnsAcross(h)) & 1);
+          region.push_back(g);
+        }
+      }
+    }
+    const int turned = off[1] < off[0] ? 1 : 0;
+    for (const Index f : region)
+    {
+      directions_[f].normal = (axis[f] ^ turned) == 0 ? Vector2(0, 1) : Vector2(1, 0);
+    }
+  }
+}
+
+AxisEnergy RelaxedTriangles::axisEnergy(Index f) const
+{
+  return { directions_[f].strength, kGuideKneeOfMap };
 }
 
 Jacobian RelaxedTriangles::jacobian(Index f, const Corners& p) const
@@ -273,8 +350,7 @@ double RelaxedTriangles::energy(Index f, const Corners& p) const
   double value = j.squaredNorm() * (1 + 1 / (d * d));
   if (!directions_.empty() && directions_[f].strength > 0)
   {
-    const double off = offAxis(j, directions_[f].direction).dot(j);
-    value += directions_[f].strength * off * off;
+    value += axisEnergy(f).value(offAxis(directions_[f].normal, directions_[f].direction).dot(j));
   }
   return references_[f].weight * value;
 }
@@ -289,9 +365,8 @@ void RelaxedTriangles::derive(Index f, Jacobian& gradient, Eigen::Matrix4d& hess
     gradient, hessian);
   if (!directions_.empty() && directions_[f].strength > 0)
   {
-    const Jacobian off = offAxis(j, directions_[f].direction);
-    gradient += 2 * directions_[f].strength * off.dot(j) * off;
-    hessian.noalias() += 2 * directions_[f].strength * off * off.transpose();
+    axisEnergy(f).addDerivatives(
+      offAxis(directions_[f].normal, directions_[f].direction), j, gradient, hessian);
   }
   gradient *= references_[f].weight;
   hessian *= references_[f].weight;

@@ -7,6 +7,7 @@
 #include "Base/FixedPoint.h"
 #include "GridMap/RelaxMap.h"
 #include "Mesh/Mesh.h"
+#include "Numerics/IsotropicEnergy.h"
 #include "Numerics/NestedSolver.h"
 #include "Numerics/ReducedTriangles.h"
 
@@ -39,10 +40,11 @@ protected:
     double weight = 0; ///< 0: left out
   };
 
-  /// The direction that is to stay on an axis: strength (normal^T J direction)^2.
+  /// The direction that is to stay on an axis: see AxisEnergy.
   struct FaceDirection
   {
     Vector2 direction = Vector2::Zero();
+    Vector2 normal = Vector2::Zero(); ///< of the axis that it is to stay on
     double strength = 0;
   };
 
@@ -91,7 +93,10 @@ private:
   void findInset();
   void makeReferences();
   void makeDirections();
+  void chooseAxes();
+  int turnsAcross(Index h) const;
   std::vector<double> unitLengths() const;
+  AxisEnergy axisEnergy(Index f) const;
   Jacobian jacobian(Index f, const Corners& p) const;
 };
 

@@ -165,6 +165,8 @@ bool carry(
   made.transfer = std::move(*carried);
   made.uv = std::move(made.transfer.uv);
   made.transfer.uv.clear();
+  made.guides = alongGuides ? guidesRoundRegions(mesh, levels.intermediate, run.edgeLength)
+                            : std::vector<FaceGuide>();
   made.stages.add("replay", secondsNow() - start, made.coarse.mesh.faceCount(), mesh.faceCount());
   start = secondsNow();
   made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
@@ -191,6 +193,54 @@ void mendFewPlaces(
   sortUnique(vertices);
   made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
   made.stages.add("replay", secondsNow() - start, made.coarse.mesh.faceCount(), mesh.faceCount());
+}
+
+/// Carries the map and mends it. False where nothing was carried.
+bool carryAndMend(
+  RunContext& run, const Mesh& mesh, const Hierarchy& levels, bool alongGuides, MapAttempt& made)
+{
+  if (!carry(run, mesh, levels, alongGuides, made))
+  {
+    return false;
+  }
+  if (run.options.method == MapMethod::ScaleAware && !made.transfer.defectVertices.empty())
+  {
+    mendFewPlaces(run, mesh, levels, made);
+  }
+  return true;
+}
+
+/// What carrying a map makes.
+struct CarriedParts
+{
+  std::vector<FixedVec2> uv;
+  TransferResult transfer;
+  Certificate certificate;
+  std::vector<FaceGuide> guides;
+
+  void swapWith(MapAttempt& made)
+  {
+    std::swap(uv, made.uv);
+    std::swap(transfer, made.transfer);
+    std::swap(certificate, made.certificate);
+    std::swap(guides, made.guides);
+  }
+};
+
+/// The map along guides has defects: without them, if it has fewer so.
+void tryWithoutGuides(RunContext& run, const Mesh& mesh, const Hierarchy& levels, MapAttempt& made)
+{
+  const std::size_t defects = made.defects();
+  CarriedParts along;
+  along.swapWith(made);
+  carryAndMend(run, mesh, levels, false, made);
+  const bool isBetter = made.defects() < defects;
+  if (!isBetter)
+  {
+    along.swapWith(made);
+  }
+  countTry(Try::WithoutGuides);
+  countTryLed(Try::WithoutGuides, isBetter ? 1 : 0);
 }
 
 void tellOfRounding(MapMethod method, MapAttempt& made)
@@ -259,7 +309,8 @@ void MapAttempt::unpack(const Mesh& surface)
 std::size_t MapAttempt::bytes() const
 {
   return bytesOf(coarse.mesh.position) + bytesOf(coarse.mesh.origin) + bytesOf(coarse.mesh.twin) +
-    bytesOf(coarseUv) + bytesOf(uv) + packed.bytes() + bytesOf(turns) + bytesOf(integerVertex);
+    bytesOf(coarseUv) + bytesOf(uv) + packed.bytes() + bytesOf(turns) + bytesOf(integerVertex) +
+    bytesOf(guides);
 }
 
 RunContext makeRun(const SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
@@ -363,19 +414,13 @@ void carryToSurface(
     made.integerVertex[made.coarse.fineVertex[v]] = made.coarseInteger[v];
   }
   const bool isScaleAware = run.options.method == MapMethod::ScaleAware;
-  const bool guided = isScaleAware && carry(run, mesh, levels, true, made);
-  if (!guided || !made.certificate.valid())
+  if (!isScaleAware || !carryAndMend(run, mesh, levels, true, made))
   {
-    carry(run, mesh, levels, false, made);
-    if (guided)
-    {
-      countTry(Try::WithoutGuides);
-      countTryLed(Try::WithoutGuides, made.certificate.valid() ? 1 : 0);
-    }
+    carryAndMend(run, mesh, levels, false, made);
   }
-  if (isScaleAware && !made.transfer.defectVertices.empty())
+  else if (!made.certificate.valid())
   {
-    mendFewPlaces(run, mesh, levels, made);
+    tryWithoutGuides(run, mesh, levels, made);
   }
   made.isCarried = true;
   made.workOfCarrying = scope.done();

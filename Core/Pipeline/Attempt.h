@@ -87,6 +87,7 @@ struct MapAttempt
   bool isCarried = false;                  ///< to the surface
   PackedMap packed;                        ///< in place of uv
   std::vector<std::uint8_t> integerVertex; ///< #V of the surface
+  std::vector<FaceGuide> guides;           ///< of the surface, for the smoothing, see GuidedMap.h
 
   /// Of the map on the surface: what keeps it from being valid.
   std::size_t defects() const;

@@ -4,8 +4,13 @@
 
 #include "Base/Progress.h"
 #include "GridMap/RelaxMap.h"
+#include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
+#include <functional>
+#include <queue>
+#include <tuple>
 
 namespace quadrille
 {
@@ -41,6 +46,13 @@ std::vector<std::uint8_t> farFromGuides(const Level& level)
   return far;
 }
 
+/// Where a guide begins to spread: a corner of a guided face of the level.
+struct GuideStart
+{
+  Index vertex = kInvalidIndex; ///< of the finest mesh
+  Index face = kInvalidIndex;   ///< of the level
+};
+
 } // namespace
 
 std::optional<TransferResult> transferAlongGuides(const Mesh& fine, const Hierarchy& levels,
@@ -72,6 +84,64 @@ std::optional<TransferResult> transferAlongGuides(const Mesh& fine, const Hierar
   }
   transfer.progress = subProgress(options.progress, 0.5, 1.0);
   return transferFromLevel(fine, level, rounds, levels.log, uv, turns, transfer);
+}
+
+std::vector<FaceGuide> guidesRoundRegions(const Mesh& fine, const Level& level, double edgeLength)
+{
+  std::vector<FaceGuide> result;
+  if (level.guides.empty())
+  {
+    return result;
+  }
+  const std::vector<Index> outgoing = outgoingHalfEdges(fine);
+  std::vector<GuideStart> starts;
+  std::vector<Index> reachedFrom(fine.faceCount(), kInvalidIndex);
+  using Entry = std::tuple<double, Index, Index>; // distance, face, start
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+  const auto offer = [&](Index f, Index start)
+  {
+    const Index v = starts[start].vertex;
+    const double distance = (fine.middleOfFace(f) - fine.position[v]).norm();
+    if (reachedFrom[f] == kInvalidIndex && distance <= edgeLength * sizeAt(fine, v))
+    {
+      queue.push({ distance, f, start });
+    }
+  };
+  for (Index h = 0; h < level.mesh.halfEdgeCount(); ++h)
+  {
+    if (!level.guides[Mesh::face(h)].isFree())
+    {
+      const auto start = static_cast<Index>(starts.size());
+      starts.push_back({ level.fineVertex[level.mesh.origin[h]], Mesh::face(h) });
+      forEachInFan(
+        fine, outgoing[starts.back().vertex], [&](Index side) { offer(Mesh::face(side), start); });
+    }
+  }
+  while (!queue.empty())
+  {
+    const auto [distance, face, start] = queue.top();
+    queue.pop();
+    if (reachedFrom[face] != kInvalidIndex)
+    {
+      continue;
+    }
+    reachedFrom[face] = start;
+    for (Index h = 3 * face; h < 3 * face + 3; ++h)
+    {
+      if (!fine.isConstrained(h))
+      {
+        offer(Mesh::face(fine.twin[h]), start);
+      }
+    }
+  }
+  for (Index f = 0; f < fine.faceCount(); ++f)
+  {
+    if (reachedFrom[f] != kInvalidIndex)
+    {
+      result.push_back({ f, level.guides[starts[reachedFrom[f]].face] });
+    }
+  }
+  return result;
 }
 
 } // namespace quadrille

@@ -9,6 +9,7 @@
 #include "Base/FixedPoint.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/Requests.h"
 #include "Transfer/Transfer.h"
 
 #include <cstdint>
@@ -25,5 +26,9 @@ namespace quadrille
 std::optional<TransferResult> transferAlongGuides(const Mesh& fine, const Hierarchy& levels,
   const std::vector<FixedVec2>& coarseUv, const std::vector<int>& turns,
   const std::vector<std::uint8_t>& integerVertex, const TransferOptions& options);
+
+/// Faces of the finest mesh within an edge length of what is guided on the intermediate level, with the guide that is
+/// nearest, ascending: points of quads there keep to it when they are smoothed. Over no feature.
+std::vector<FaceGuide> guidesRoundRegions(const Mesh& fine, const Level& level, double edgeLength);
 
 } // namespace quadrille

@@ -223,6 +223,7 @@ void extractOnSurface(
   ExtractionOptions options;
   options.smoothingSteps = run.options.smoothingSteps;
   options.fixedVertices = verticesThatStay(*surface, map);
+  options.guides = map.guides;
   options.mapIsCertified = map.certificate.valid();
   options.shape = shape.get();
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace quadrille
 {
@@ -25,8 +26,10 @@ constexpr double kBadShape = 0.4;
 
 /// Edges of the quads no farther off their curve than this part of their length are near enough.
 constexpr double kCloseToCurve = 0.08;
-/// For the sake of a curve shapes may become as bad as this.
-constexpr double kShapeOnCurve = 0.3;
+/// For the sake of a curve or a guide shapes may become as bad as this.
+constexpr double kShapeAsAsked = 0.3;
+/// Of cosines between directions: a tenth of a degree.
+constexpr double kSameDirection = 1e-6;
 /// A slide has to lessen the distance of the edges from their curve to this part.
 constexpr double kLeastGainOnCurve = 0.97;
 /// Parts of the way to the next point of a curve, backwards and forwards, that are tried.
@@ -40,6 +43,7 @@ public:
       incident_(moves_.incidentQuads())
   {
     colour();
+    findGuides();
   }
 
   SmoothingResult run()
@@ -171,7 +175,7 @@ private:
       const Vector3 position = positionOf(moves_.mesh(), *place);
       const Quality after = qualityAt(p, position);
       if (!shrinksShortEdge(p, position) &&
-        (after.worst >= kShapeOnCurve || after.betterThan(quality)))
+        (after.worst >= kShapeAsAsked || after.betterThan(quality)))
       {
         least = deviationOf(*there);
         best = place;
@@ -270,7 +274,8 @@ private:
     }
     const Quality quality = qualityAt(p, position);
     if (quality.betterThan(best.quality) &&
-      (best.quality.worst < kShapeOnCurve || !leavesCurve(p, *place)))
+      (best.quality.worst < kShapeAsAsked ||
+        (!leavesCurve(p, *place) && !leavesGuide(p, position))))
     {
       best = { *place, position, quality };
     }
@@ -290,6 +295,50 @@ private:
       return now.has_value();
     }
     return deviationOf(*there) > std::max(deviationOf(*now), closeTo(*now));
+  }
+
+  /// The guides of the faces that points lie in.
+  void findGuides()
+  {
+    const std::vector<FaceGuide>& guides = options_.guides;
+    guideOf_.assign(guides.empty() ? 0 : quads_.points.size(), nullptr);
+    for (std::size_t p = 0; p < guideOf_.size(); ++p)
+    {
+      const Index face = quads_.sourceFace[p];
+      const auto found = std::lower_bound(guides.begin(), guides.end(), face,
+        [](const FaceGuide& guide, Index f) { return guide.face < f; });
+      guideOf_[p] = found != guides.end() && found->face == face ? &found->guide : nullptr;
+    }
+  }
+
+  /// Would an edge of p that runs along its guide turn farther off it than now?
+  bool leavesGuide(Index p, const Vector3& position) const
+  {
+    if (guideOf_.empty() || guideOf_[p] == nullptr)
+    {
+      return false;
+    }
+    const auto [backwards, forwards] = alongGuide(p, quads_.points[p]);
+    const auto [backwardsThere, forwardsThere] = alongGuide(p, position);
+    return backwardsThere > backwards + kSameDirection || forwardsThere < forwards - kSameDirection;
+  }
+
+  /// Cosines between the guide of p and the edges that run along it, backwards and forwards.
+  std::pair<double, double> alongGuide(Index p, const Vector3& position) const
+  {
+    const Vector3 normal = moves_.normalAt(p);
+    const Vector3& guide = guideOf_[p]->direction;
+    const Vector3 along = (guide - normal * normal.dot(guide)).stableNormalized();
+    double least = 0, most = 0;
+    moves_.forEachNeighbour(p,
+      [&](const Vector3& x)
+      {
+        const Vector3 edge = x - position;
+        const double cosine = (edge - normal * normal.dot(edge)).stableNormalized().dot(along);
+        least = std::min(least, cosine);
+        most = std::max(most, cosine);
+      });
+    return { least, most };
   }
 
   Quality qualityAt(Index p, const Vector3& position) const
@@ -345,6 +394,7 @@ private:
   QuadMoves moves_;
   const PointLists& incident_;              ///< per point its quads
   std::vector<std::vector<Index>> classes_; ///< movable points per colour
+  std::vector<const Guide*> guideOf_; ///< per point, null: none; empty where nothing is guided
 };
 
 } // namespace

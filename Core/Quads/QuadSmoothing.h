@@ -5,6 +5,7 @@
 
 #include "Base/Progress.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/Requests.h"
 #include "Quads/QuadMesh.h"
 
 namespace quadrille
@@ -16,6 +17,8 @@ struct SmoothingOptions
   int threads = 0;
   ProgressCallback progress;
   std::vector<Index> fixedVertices; ///< of the mesh, ascending; points on them stay
+  /// Of faces of the mesh, ascending: points there do not turn their edges off these directions for the sake of shape.
+  std::vector<FaceGuide> guides;
   /// Points whose quads all have a scaled Jacobian above this stay, in (0, 1]: moves for the sake
   /// of shape alone take the mesh away from the ridges and valleys of the surface that the map
   /// follows.
@@ -32,7 +35,8 @@ struct SmoothingResult
 /// stay, and so do points of polygons and of a trimmed boundary. A move is made only if it does not lower the worst
 /// scaled Jacobian of the quads at the point and raises their sum (or the worst one, where that is bad).
 /// A point of a curve slides also to where the two edges to its neighbours lie nearest to the curve, so that its bends
-/// get points, as far as no scaled Jacobian there falls below 0.3 for it; other moves leave the curve no farther.
+/// get points, as far as no scaled Jacobian there falls below 0.3 for it; other moves leave the curve no farther, nor, in
+/// guided faces, the direction of the guide, but where a scaled Jacobian is below 0.3.
 /// Points that share no quad are moved in parallel; the result does not depend on the number of threads. quads must be
 /// a manifold that was extracted from mesh.
 SmoothingResult smoothQuads(const Mesh& mesh, QuadMesh& quads, const SmoothingOptions& options);

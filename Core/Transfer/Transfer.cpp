@@ -102,11 +102,18 @@ std::vector<int> turnsOf(const Mesh& mesh, const std::vector<FixedVec2>& uv)
   return turns;
 }
 
+/// Whether a map that is not valid is one of a few triangles.
+enum class MendWhat
+{
+  PositiveLevels, ///< what was invalid already on the coarse level is not
+  All             ///< the level's map was carried there
+};
+
 /// turns: what the finest map should wind round each vertex, asked for only where something is to be mended.
 template <typename Turns>
 TransferResult replayAndMend(const Mesh& fine, const Level& level, std::size_t rounds,
   const DecimationLog& log, const std::vector<FixedVec2>& levelUv, const Turns& turns,
-  const TransferOptions& options)
+  MendWhat mended, const TransferOptions& options)
 {
   const bool levelIsPositive = countNotPositive(levelUv, 1) == 0;
   TransferResult result;
@@ -121,14 +128,14 @@ TransferResult replayAndMend(const Mesh& fine, const Level& level, std::size_t r
     levelIsPositive && counts.withoutKernel == 0 && counts.lostTransitions == 0;
   result.notPositive = isPositive ? 0 : countNotPositive(result.uv, options.threads);
   result.replayNotPositive = result.notPositive;
-  // What was invalid already on the level is not a matter of a few triangles here.
-  if ((result.notPositive > 0 || result.withoutKernel > 0) && levelIsPositive)
+  if ((result.notPositive > 0 || result.withoutKernel > 0) &&
+    (levelIsPositive || mended == MendWhat::All))
   {
-    const MendResult mended =
+    const MendResult mend =
       mendPatches(fine, result.uv, turns(), options.threads, options.progress);
-    result.mendedPatches = mended.patches;
-    result.notPositive = mended.notPositive;
-    result.defectVertices = verticesOf(fine, mended.defects);
+    result.mendedPatches = mend.patches;
+    result.notPositive = mend.notPositive;
+    result.defectVertices = verticesOf(fine, mend.defects);
   }
   return result;
 }
@@ -141,7 +148,8 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
   checkSizes(fine, coarse, log);
   return replayAndMend(
     fine, coarse, log.rounds.size(), log, coarseUv,
-    [&]() { return expectedTurns(fine, coarse, turnsOf(coarse.mesh, coarseUv)); }, options);
+    [&]() { return expectedTurns(fine, coarse, turnsOf(coarse.mesh, coarseUv)); },
+    MendWhat::PositiveLevels, options);
 }
 
 TransferResult transferFromLevel(const Mesh& fine, const Level& level, std::size_t rounds,
@@ -151,7 +159,7 @@ TransferResult transferFromLevel(const Mesh& fine, const Level& level, std::size
   checkFineSize(fine, log);
   refuseIf(turns.size() != fine.position.size(), "The turns have not the size of the surface.");
   return replayAndMend(
-    fine, level, rounds, log, uv, [&]() { return turns; }, options);
+    fine, level, rounds, log, uv, [&]() { return turns; }, MendWhat::All, options);
 }
 
 std::vector<FixedVec2> transferToLevel(const Level& coarse, const Level& level, std::size_t rounds,

@@ -49,7 +49,8 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
 std::vector<FixedVec2> transferToLevel(const Level& coarse, const Level& level, std::size_t rounds,
   const DecimationLog& log, const std::vector<FixedVec2>& coarseUv, const TransferOptions& options);
 
-/// Carries a map of a level between, as transferToLevel makes it, to the finest mesh. uv: #H of level.mesh; turns: #V
+/// Carries a map of a level between, as transferToLevel makes it, to the finest mesh, and mends what is not positive
+/// there or was not on the level. uv: #H of level.mesh; turns: #V
 /// of the finest mesh, what the map should wind round each vertex. Throws InvalidInput when sizes or rounds do not fit.
 TransferResult transferFromLevel(const Mesh& fine, const Level& level, std::size_t rounds,
   const DecimationLog& log, const std::vector<FixedVec2>& uv, const std::vector<int>& turns,

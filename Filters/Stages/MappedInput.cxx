@@ -6,8 +6,10 @@
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
+#include "Common/NewArray.h"
 #include "Common/Report.h"
 #include "Convert/Frame.h"
+#include "Convert/MeshArrays.h"
 #include "Convert/PolyData.h"
 #include "ForeignMaps/MapWelding.h"
 #include "Stages/SharedLevels.h"
@@ -15,7 +17,9 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
@@ -345,6 +349,50 @@ std::vector<Index> requestedVertices(vtkPolyData* data, const Mesh& mesh)
   }
   sortUnique(vertices);
   return vertices;
+}
+
+void addSmoothingGuides(const std::vector<FaceGuide>& guides, const Frame& frame, vtkPolyData* data)
+{
+  if (guides.empty())
+  {
+    return;
+  }
+  auto cells = newArray<vtkIdTypeArray>(arrays::kSmoothedCells, 1, guides.size());
+  auto along = newArray<vtkDoubleArray>(arrays::kSmoothedAlong, 3, guides.size());
+  for (std::size_t i = 0; i < guides.size(); ++i)
+  {
+    const auto at = static_cast<vtkIdType>(i);
+    cells->SetValue(at, guides[i].face);
+    along->SetTuple(at, frame.mirrored(guides[i].guide.direction).eval().data());
+  }
+  data->GetFieldData()->AddArray(cells);
+  data->GetFieldData()->AddArray(along);
+}
+
+std::vector<FaceGuide> readSmoothingGuides(vtkPolyData* data, const Mesh& mesh, const Frame& frame)
+{
+  vtkDataArray* cells = data->GetFieldData()->GetArray(arrays::kSmoothedCells);
+  vtkDataArray* along = data->GetFieldData()->GetArray(arrays::kSmoothedAlong);
+  std::vector<FaceGuide> guides;
+  if (cells == nullptr && along == nullptr)
+  {
+    return guides;
+  }
+  refuseIf(cells == nullptr || along == nullptr || cells->GetNumberOfComponents() != 1 ||
+      along->GetNumberOfComponents() != 3 ||
+      cells->GetNumberOfTuples() != along->GetNumberOfTuples(),
+    "the field arrays '", arrays::kSmoothedCells, "' and '", arrays::kSmoothedAlong,
+    "' do not fit each other: take the output of vtkIntegerGridMapUpmap as it is, or remove both");
+  const std::vector<Index> faces = readIds(cells, mesh.faceCount());
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    refuseIf(i > 0 && faces[i] <= faces[i - 1], "the field array '", arrays::kSmoothedCells,
+      "' has to ascend, but entry ", i, " does not");
+    Vector3 direction;
+    along->GetTuple(static_cast<vtkIdType>(i), direction.data());
+    guides.push_back({ faces[i], { frame.mirrored(direction), 1 } });
+  }
+  return guides;
 }
 
 void addMapReport(vtkDataObject* data, const MappedInput& input)

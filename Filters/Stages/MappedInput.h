@@ -5,6 +5,7 @@
 
 #include "ForeignMaps/MapSnapping.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/Requests.h"
 #include "Prepare/Frame.h"
 
 #include <memory>
@@ -44,6 +45,13 @@ MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads)
 
 /// Vertices of the input's mesh, ascending, whose TargetValence asks for an irregular one.
 std::vector<Index> requestedVertices(vtkPolyData* data, const Mesh& mesh);
+
+/// Guides of a mapped surface's cells for the smoothing of the quads, in its frame, as field data: SmoothedCells and
+/// SmoothedAlong; nothing where there are none.
+void addSmoothingGuides(
+  const std::vector<FaceGuide>& guides, const Frame& frame, vtkPolyData* data);
+/// Empty where there are none. Throws InvalidInput where the two arrays do not fit each other or the mesh.
+std::vector<FaceGuide> readSmoothingGuides(vtkPolyData* data, const Mesh& mesh, const Frame& frame);
 
 /// MapLargestMove (in quads), MapFixedPoints and MapInconsistentVertices.
 void addMapReport(vtkDataObject* data, const MappedInput& input);

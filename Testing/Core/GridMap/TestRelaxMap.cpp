@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../TestMeshes.h"
 
+#include "Base/Angles.h"
 #include "GridMap/GridMap.h"
 #include "GridMap/MapCheck.h"
 #include "GridMap/RelaxMap.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <random>
 
@@ -217,6 +219,48 @@ TEST(RelaxMap, TurnsAlongGuides)
   };
   EXPECT_NEAR(angleOf(false), 0.3, 0.01);
   EXPECT_LT(angleOf(true), 0.15);
+}
+
+/// Guides 45 degrees off both families, some nearer to the one and some to the other: all are on the same one.
+TEST(RelaxMap, GuidesOfARegionKeepToOneFamily)
+{
+  ShakenPlane plane(24, 0.1);
+  RelaxOptions options = thorough();
+  const auto wanted = [](Index f)
+  {
+    const double angle = kPi / 4 + (f % 3 - 1.0) * 0.02;
+    return Vector3(std::cos(angle), std::sin(angle), 0);
+  };
+  std::vector<Index> inside;
+  for (Index f = 0; f < plane.mesh.faceCount(); ++f)
+  {
+    const Vector3 p = plane.mesh.position[plane.mesh.origin[3 * f]];
+    const bool isInside = (p - Vector3(12, 12, 0)).norm() < 4;
+    options.guides.push_back(isInside ? Guide{ wanted(f), 1 } : Guide{});
+    if (isInside)
+    {
+      inside.push_back(f);
+    }
+  }
+  relaxMap(plane.mesh, plane.integer, options, plane.uv);
+  EXPECT_TRUE(certify(plane.mesh, plane.uv, plane.turns, plane.integer).valid());
+  std::array<std::size_t, 2> off{ 0, 0 }; // faces more than 10 degrees off a family
+  for (const Index f : inside)
+  {
+    const Vector3 a = plane.mesh.edgeVector(3 * f), b = -plane.mesh.edgeVector(3 * f + 2);
+    Eigen::Matrix2d edges, image;
+    edges << a.head<2>(), b.head<2>();
+    image << toDouble(plane.uv[3 * f + 1] - plane.uv[3 * f]),
+      toDouble(plane.uv[3 * f + 2] - plane.uv[3 * f]);
+    const Eigen::Matrix2d j = image * edges.inverse();
+    for (const int axis : { 0, 1 })
+    {
+      const double across = std::abs(j.row(axis).dot(wanted(f).head<2>())) / j.row(axis).norm();
+      off[static_cast<std::size_t>(axis)] += across > std::sin(kPi / 18) ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(std::min(off[0], off[1]), 0U);
+  EXPECT_GT(std::max(off[0], off[1]), inside.size() / 2);
 }
 
 TEST(RelaxMap, SameBytesForAnyNumberOfThreads)

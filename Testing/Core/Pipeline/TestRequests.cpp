@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Guides and target valences from the input to the quads.
+#include "Base/Angles.h"
 #include "Pipeline/Pipeline.h"
 
 #include "MeshInput.h"
@@ -120,6 +121,48 @@ TEST(Requests, AHelixRoundATorusIsFollowed)
   options.threads = 1;
   const RemeshResult again = remesh(input, options);
   EXPECT_EQ(again.quads.points, result.quads.points);
+}
+
+/// On a side of a cube, whose edges hold the field, aslant by 40 degrees: one family of the quads follows over all of the
+/// stroke, whether that has a radius or not.
+TEST(Requests, AStrokeIsFollowedOnASideOfACube)
+{
+  SurfaceInput input = toInput(unitCube(1));
+  RemeshOptions options;
+  options.quads = 2400;
+  options.threads = 2;
+  const Vector3 along(std::cos(radians(40)), std::sin(radians(40)), 0);
+  const Vector3 middle(0.5, 0.5, 1);
+  for (const double radius : { 0.0, 0.075 })
+  {
+    StrokeRequest stroke;
+    stroke.points = { middle - 0.2 * along, middle + 0.2 * along };
+    stroke.radius = radius;
+    input.drawn.strokes = { stroke };
+    const RemeshResult result = remesh(input, options);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_TRUE(result.certificate.valid());
+    double sum = 0;
+    int quads = 0;
+    for (const std::array<Index, 4>& quad : result.quads.quads)
+    {
+      std::array<Vector3, 4> p;
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        p[i] = result.quads.points[quad[i]];
+      }
+      const Vector3 off = (p[0] + p[1] + p[2] + p[3]) / 4 - middle;
+      if (std::abs(off.dot(along)) < 0.2 && (off - off.dot(along) * along).norm() < 0.05)
+      {
+        const auto angle = [&](const Vector3& side)
+        { return angleBetween(side, side.dot(along) < 0 ? -along : along); };
+        sum += std::min(angle(p[1] + p[2] - p[0] - p[3]), angle(p[2] + p[3] - p[0] - p[1]));
+        ++quads;
+      }
+    }
+    EXPECT_GT(quads, 5);
+    EXPECT_LT(sum / quads, radians(5)) << radius;
+  }
 }
 
 TEST(Requests, CurvatureGuidesAQuarterOfAnEllipse)

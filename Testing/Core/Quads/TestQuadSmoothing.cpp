@@ -153,6 +153,54 @@ TEST(QuadSmoothing, PointsOfACurveSlideToItsBends)
   }
 }
 
+// A plate whose quads run aslant in the middle, as a guide has them: smoothing for the sake of shape alone turns them back.
+TEST(QuadSmoothing, GuidedPointsKeepTheirDirection)
+{
+  GridMapCase c = crumpledPlane(12, 12, 2, 0);
+  constexpr double kSlope = 0.5, kGuided = 7;
+  const auto fromCentre = [](const Vector3& p) { return (p - Vector3(12, 12, 0)).norm(); };
+  for (Index h = 0; h < c.mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = c.mesh.position[c.mesh.origin[h]];
+    const double part = std::clamp((11 - fromCentre(p)) / (11 - kGuided), 0.0, 1.0);
+    c.uv[h] = toFixed(Vector2(p.x() / 2, p.y() / 2 - part * kSlope * (p.x() - 12) / 2));
+  }
+  const Vector3 along = Vector3(1, kSlope, 0).normalized();
+  SmoothingOptions options;
+  options.steps = 10;
+  options.goodShape = 1;
+  const auto turned = [&](bool guided)
+  {
+    options.guides.clear();
+    for (Index f = 0; guided && f < c.mesh.faceCount(); ++f)
+    {
+      if (fromCentre(c.mesh.middleOfFace(f)) < kGuided)
+      {
+        options.guides.push_back({ f, { along, 1 } });
+      }
+    }
+    QuadMesh mesh = extractRaw(c);
+    EXPECT_GT(smoothQuads(c.mesh, mesh, options).moves, 0u);
+    double most = 0; // of the edges that should run along it, well inside
+    for (const std::array<Index, 4>& quad : mesh.quads)
+    {
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        const Vector3& a = mesh.points[quad[i]];
+        const Vector3& b = mesh.points[quad[(i + 1) % 4]];
+        const double angle = angleBetween(b - a, (b - a).dot(along) < 0 ? -along : along);
+        if (fromCentre((a + b) / 2) < 4 && angle < kPi / 4)
+        {
+          most = std::max(most, angle);
+        }
+      }
+    }
+    return most;
+  };
+  EXPECT_GT(turned(false), radians(5));
+  EXPECT_LT(turned(true), radians(1));
+}
+
 TEST(QuadSmoothing, FeaturesOfABlockStay)
 {
   GridMapCase c = squares("block", markFeatures(doubleTorus(2), 0.7), 3);
