@@ -333,7 +333,11 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   }
   vtkPolyData* quads = block.output(0);
   quads->ShallowCopy(written.quads);
-  quads->GetFieldData()->RemoveArray(quadrille::arrays::kFrame); // of the mapped surface
+  for (const char* ofMappedSurface : { quadrille::arrays::kFrame, quadrille::arrays::kSmoothedCells,
+         quadrille::arrays::kSmoothedAlong })
+  {
+    quads->GetFieldData()->RemoveArray(ofMappedSurface);
+  }
   quadrille::addFields(quads, quadrille::stageFields(laps.records.all()));
   quadrille::addMapReport(quads, mapped);
   addBoundaryReport(quads, result, mesh);

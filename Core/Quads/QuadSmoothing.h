@@ -35,8 +35,8 @@ struct SmoothingResult
 /// stay, and so do points of polygons and of a trimmed boundary. A move is made only if it does not lower the worst
 /// scaled Jacobian of the quads at the point and raises their sum (or the worst one, where that is bad).
 /// A point of a curve slides also to where the two edges to its neighbours lie nearest to the curve, so that its bends
-/// get points, as far as no scaled Jacobian there falls below 0.3 for it; other moves leave the curve no farther, nor, in
-/// guided faces, the direction of the guide, but where a scaled Jacobian is below 0.3.
+/// get points, as far as no scaled Jacobian there falls below 0.3 for it; other moves leave the curve no farther, nor,
+/// in guided faces, the direction of the guide, but where a scaled Jacobian is below 0.3.
 /// Points that share no quad are moved in parallel; the result does not depend on the number of threads. quads must be
 /// a manifold that was extracted from mesh.
 SmoothingResult smoothQuads(const Mesh& mesh, QuadMesh& quads, const SmoothingOptions& options);

@@ -123,8 +123,8 @@ TEST(Requests, AHelixRoundATorusIsFollowed)
   EXPECT_EQ(again.quads.points, result.quads.points);
 }
 
-/// On a side of a cube, whose edges hold the field, aslant by 40 degrees: one family of the quads follows over all of the
-/// stroke, whether that has a radius or not.
+/// On a side of a cube, whose edges hold the field, aslant by 40 degrees: one family of the quads follows over all of
+/// the stroke, whether that has a radius or not.
 TEST(Requests, AStrokeIsFollowedOnASideOfACube)
 {
   SurfaceInput input = toInput(unitCube(1));

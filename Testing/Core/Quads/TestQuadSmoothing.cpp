@@ -153,7 +153,8 @@ TEST(QuadSmoothing, PointsOfACurveSlideToItsBends)
   }
 }
 
-// A plate whose quads run aslant in the middle, as a guide has them: smoothing for the sake of shape alone turns them back.
+// A plate whose quads run aslant in the middle, as a guide has them: smoothing for the sake of shape alone turns them
+// back.
 TEST(QuadSmoothing, GuidedPointsKeepTheirDirection)
 {
   GridMapCase c = crumpledPlane(12, 12, 2, 0);
