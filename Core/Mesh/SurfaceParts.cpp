@@ -60,9 +60,9 @@ public:
   {
   }
 
-  std::vector<SurfacePart> take(int threads)
+  std::vector<ComponentPart> take(int threads)
   {
-    for (SurfacePart& part : parts_)
+    for (ComponentPart& part : parts_)
     {
       part.surface = withoutElements(whole_);
       part.surface.repair = {};
@@ -75,7 +75,7 @@ public:
     takeFaces();
     takeElementRequests();
     takePlaceRequests();
-    for (SurfacePart& part : parts_)
+    for (ComponentPart& part : parts_)
     {
       part.surface.hash = contentHash(part.surface.mesh, threads);
     }
@@ -179,7 +179,7 @@ private:
     {
       return;
     }
-    for (SurfacePart& part : parts_)
+    for (ComponentPart& part : parts_)
     {
       std::vector<Index> polygons = part.surface.sourcePolygon;
       sortUnique(polygons);
@@ -194,7 +194,7 @@ private:
   {
     for (Index i = 0; i < whole_.curves.size(); ++i)
     {
-      SurfacePart& part = parts_[partOfPlace_.at(whole_.curves[i].points.front())];
+      ComponentPart& part = parts_[partOfPlace_.at(whole_.curves[i].points.front())];
       part.surface.curves.push_back(whole_.curves[i]);
       part.curves.push_back(i);
     }
@@ -219,7 +219,7 @@ private:
   const PreparedSurface& whole_;
   const std::vector<Index>& partOfFace_;
   PartOfPlace partOfPlace_;
-  std::vector<SurfacePart> parts_;
+  std::vector<ComponentPart> parts_;
   std::vector<Index> newFace_, newVertex_, partOfVertex_; ///< of the whole's elements
 };
 
@@ -293,7 +293,7 @@ void appendFlips(const PreparedSurface& part, PreparedSurface& all)
 
 } // namespace
 
-std::vector<SurfacePart> splitSurface(const PreparedSurface& whole,
+std::vector<ComponentPart> splitSurface(const PreparedSurface& whole,
   const std::vector<Index>& partOfFace, std::size_t parts, int threads)
 {
   return Splitting(whole, partOfFace, parts).take(threads);

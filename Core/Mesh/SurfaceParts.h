@@ -13,7 +13,7 @@ namespace quadrille
 
 /// Some components of a surface as a surface of their own: elements keep their order, and what was asked for there
 /// comes along. Facets, notice and the diagonal are those of the whole; nothing was repaired yet, no valence is unused.
-struct SurfacePart
+struct ComponentPart
 {
   PreparedSurface surface;
   std::vector<Index> curves; ///< which of the whole's they are
@@ -21,7 +21,7 @@ struct SurfacePart
 
 /// partOfFace: #F, below `parts`, the same all over a component; each part has a face. What lies at a place is asked of
 /// the part with the nearest triangle. Linear, but for requests at places. threads: 0: all.
-std::vector<SurfacePart> splitSurface(const PreparedSurface& whole,
+std::vector<ComponentPart> splitSurface(const PreparedSurface& whole,
   const std::vector<Index>& partOfFace, std::size_t parts, int threads);
 
 /// Appends the elements of a part that may have been changed since, with what is asked of them and what was repaired;

@@ -83,7 +83,7 @@ std::vector<SizedPart> divide(
   std::vector<Index> partOfFace(surface.mesh.faceCount());
   std::transform(sizes.componentOfFace.begin(), sizes.componentOfFace.end(), partOfFace.begin(),
     [&](Index c) { return partOf[c]; });
-  std::vector<SurfacePart> surfaces = splitSurface(surface, partOfFace, count, threads);
+  std::vector<ComponentPart> surfaces = splitSurface(surface, partOfFace, count, threads);
 
   const double all = std::accumulate(sizes.area.begin(), sizes.area.end(), 0.0);
   std::vector<SizedPart> parts(count);

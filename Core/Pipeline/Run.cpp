@@ -11,7 +11,7 @@
 #include "Pipeline/EnterFrame.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/History.h"
-#include "Pipeline/JoinedParts.h"
+#include "Pipeline/JoinedRuns.h"
 #include "Pipeline/Recovery.h"
 #include "Pipeline/Restarts.h"
 #include "Pipeline/RunResult.h"
@@ -196,7 +196,7 @@ std::size_t workOfPart(
 /// The parts one by one, until one has no quads unless those are left out. work: that they may take together. settled:
 /// gets their details.
 Failure remeshParts(std::vector<SizedPart> parts, std::size_t work, Settled& settled,
-  const Asked& asked, JoinedParts& joined)
+  const Asked& asked, JoinedRuns& joined)
 {
   eraseIf(settled.details,
     [](const SmallDetail& detail) { return detail.decision != DetailDecision::Simplify; });
@@ -237,7 +237,7 @@ Failure remeshParts(std::vector<SizedPart> parts, std::size_t work, Settled& set
 /// The surface in parts: whether they have quads, which are those of the result then, and otherwise why not. history:
 /// of the whole.
 bool remeshDivided(const History& history, Settled& settled, SizedSurface& sized,
-  const Asked& asked, JoinedParts& joined, RemeshResult& result, Failure& failure)
+  const Asked& asked, JoinedRuns& joined, RemeshResult& result, Failure& failure)
 {
   const RemeshOptions& options = asked.options;
   std::vector<Index> failed;
@@ -274,7 +274,7 @@ bool remeshDivided(const History& history, Settled& settled, SizedSurface& sized
 void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, RemeshResult& result)
 {
   const RemeshOptions& options = asked.options;
-  JoinedParts joined(sized);
+  JoinedRuns joined(sized);
   Failure failure;
   if (!settled.status.ok())
   {

@@ -43,7 +43,7 @@ SurfaceInput threeBodies()
   return test::toInput(test::disjointUnion(cubes, test::sphere(2), Vector3(8, 0, 0)));
 }
 
-std::vector<SurfacePart> partsOf(const PreparedSurface& surface)
+std::vector<ComponentPart> partsOf(const PreparedSurface& surface)
 {
   const ComponentSizes sizes = measureComponents(surface.mesh);
   return splitSurface(surface, sizes.componentOfFace, sizes.area.size(), 1);
@@ -70,10 +70,10 @@ TEST(SurfaceParts, AreTheComponentsAndMakeTheWholeAgain)
 {
   const SurfaceInput input = threeBodies();
   const PreparedSurface whole = prepareSurface(input, {});
-  std::vector<SurfacePart> parts = partsOf(whole);
+  std::vector<ComponentPart> parts = partsOf(whole);
   ASSERT_EQ(parts.size(), 3U);
   PreparedSurface joined = withoutElements(whole);
-  for (SurfacePart& part : parts)
+  for (ComponentPart& part : parts)
   {
     EXPECT_EQ(validate(part.surface.mesh), "");
     EXPECT_EQ(summarizeTopology(part.surface.mesh).components, 1U);
@@ -102,7 +102,7 @@ TEST(SurfaceParts, FlipsOfBothAreKnownInTheWhole)
   PreparedSurface whole = prepareSurface(input, {});
   refineSurface(whole, 0.5, {});
   PreparedSurface joined = withoutElements(whole);
-  for (SurfacePart& part : partsOf(whole))
+  for (ComponentPart& part : partsOf(whole))
   {
     refineSurface(part.surface, 0.2, {}); // each with flips of its own
     EXPECT_NE(part.surface.beforeFlips, nullptr);
@@ -132,10 +132,10 @@ TEST(SurfaceParts, RequestsGoWhereTheyAreAsked)
   whole.curves = { { CurveKind::Cycle, { { 8, 0, 1 }, { 8, 1, 0 }, { 9, 0, 0 } } },
     { CurveKind::Connection, { { 3, 0, 0 }, { 4, 5, 1 } } } };
   whole.sizes = { { Vector3(0, 0, 0), 0.1, 0.5, 0 } };
-  std::vector<SurfacePart> parts = partsOf(whole);
+  std::vector<ComponentPart> parts = partsOf(whole);
   PreparedSurface joined = withoutElements(whole);
   std::size_t valences = 0;
-  for (const SurfacePart& part : parts)
+  for (const ComponentPart& part : parts)
   {
     const double middle = part.surface.mesh.middleOfFace(0).x();
     const bool isFirst = middle<2, isSphere = middle> 6;

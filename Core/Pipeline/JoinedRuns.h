@@ -13,10 +13,10 @@
 namespace quadrille
 {
 
-class JoinedParts
+class JoinedRuns
 {
 public:
-  explicit JoinedParts(const SizedSurface& whole);
+  explicit JoinedRuns(const SizedSurface& whole);
 
   /// made: in the frame, with quads.
   void add(const SizedPart& part, RemeshResult made);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Pipeline/JoinedParts.h"
+#include "Pipeline/JoinedRuns.h"
 
 #include "Base/Lists.h"
 #include "Mesh/ContentHash.h"
@@ -207,14 +207,14 @@ void addLog(const RemeshResult& part, RemeshResult& all)
 
 } // namespace
 
-JoinedParts::JoinedParts(const SizedSurface& whole)
+JoinedRuns::JoinedRuns(const SizedSurface& whole)
   : components_(whole.surface->components), targetQuads_(static_cast<long long>(whole.targetQuads)),
     surface_(withoutElements(*whole.surface))
 {
   joined_.curves.resize(whole.surface->curves.size());
 }
 
-void JoinedParts::add(const SizedPart& part, RemeshResult made)
+void JoinedRuns::add(const SizedPart& part, RemeshResult made)
 {
   addLog(made, joined_);
   appendNew(made.notices, joined_.notices);
@@ -237,7 +237,7 @@ void JoinedParts::add(const SizedPart& part, RemeshResult made)
   appendSurface(*part.sized.surface, surface_);
 }
 
-void JoinedParts::leaveOut(const SizedPart& part, const RemeshResult& made)
+void JoinedRuns::leaveOut(const SizedPart& part, const RemeshResult& made)
 {
   const PreparedSurface& surface = *part.sized.surface;
   addLog(made, joined_);
@@ -260,7 +260,7 @@ void JoinedParts::leaveOut(const SizedPart& part, const RemeshResult& made)
 }
 
 /// failed: of the part.
-void JoinedParts::addFailed(const SizedPart& part, const FailedParts& failed)
+void JoinedRuns::addFailed(const SizedPart& part, const FailedParts& failed)
 {
   FailedParts& all = joined_.failed;
   all.components += failed.components;
@@ -272,7 +272,7 @@ void JoinedParts::addFailed(const SizedPart& part, const FailedParts& failed)
   all.why = all.why.empty() ? failed.why : all.why;
 }
 
-void JoinedParts::addMap(RunMap& made)
+void JoinedRuns::addMap(RunMap& made)
 {
   const Index vertices = surface_.mesh.vertexCount(), faces = surface_.mesh.faceCount();
   addCertificate(
@@ -291,7 +291,7 @@ void JoinedParts::addMap(RunMap& made)
   addTransfer(made.transfer, vertices, joined_.transfer);
 }
 
-void JoinedParts::addQuads(const RunQuads& made)
+void JoinedRuns::addQuads(const RunQuads& made)
 {
   const auto before = static_cast<double>(joined_.quads.quads.size());
   const auto added = static_cast<double>(made.quads.quads.size());
@@ -300,7 +300,7 @@ void JoinedParts::addQuads(const RunQuads& made)
   addQuadMesh(made.quads, surface_.mesh.faceCount(), joined_.quads);
 }
 
-PreparedSurface JoinedParts::take(RemeshResult& result, int threads)
+PreparedSurface JoinedRuns::take(RemeshResult& result, int threads)
 {
   takeLog(result);
   static_cast<RunMap&>(result) = std::move(static_cast<RunMap&>(joined_));
@@ -317,7 +317,7 @@ PreparedSurface JoinedParts::take(RemeshResult& result, int threads)
   return std::move(surface_);
 }
 
-void JoinedParts::takeLog(RemeshResult& result)
+void JoinedRuns::takeLog(RemeshResult& result)
 {
   addLog(joined_, result);
   eraseIf(result.reused,
