@@ -19,7 +19,7 @@ namespace
 /// A smaller factor is nothing that a user would see.
 constexpr double kTellRefinement = 1.1;
 
-void append(std::string& text, std::size_t count, const char* one, const char* many)
+void appendCount(std::string& text, std::size_t count, const char* one, const char* many)
 {
   if (count > 0)
   {
@@ -76,17 +76,17 @@ std::string anisotropyNotice(double share, double limit)
 std::string defectsText(const Certificate& certificate)
 {
   std::string text;
-  append(text, certificate.notPositive, " triangle is turned over or flat",
+  appendCount(text, certificate.notPositive, " triangle is turned over or flat",
     " triangles are turned over or flat");
-  append(text, certificate.wrongTurns, " vertex has another valence than the field",
+  appendCount(text, certificate.wrongTurns, " vertex has another valence than the field",
     " vertices have another valence than the field");
-  append(text, certificate.seamResiduals, " edge has two images that do not match",
+  appendCount(text, certificate.seamResiduals, " edge has two images that do not match",
     " edges have two images that do not match");
-  append(text, certificate.offIsolines, " feature or boundary edge is on no grid line",
+  appendCount(text, certificate.offIsolines, " feature or boundary edge is on no grid line",
     " feature or boundary edges are on no grid line");
-  append(text, certificate.offIntegers, " irregular vertex or corner is on no grid point",
+  appendCount(text, certificate.offIntegers, " irregular vertex or corner is on no grid point",
     " irregular vertices or corners are on no grid point");
-  append(text, certificate.fractionalTransitions, " edge has a shift that is not whole",
+  appendCount(text, certificate.fractionalTransitions, " edge has a shift that is not whole",
     " edges have shifts that are not whole");
   return text;
 }
