@@ -77,9 +77,11 @@ class Module(unittest.TestCase):
         (alone / pathlib.Path(library).name).unlink(missing_ok=True)
         (alone / pathlib.Path(library).name).symlink_to(library)
 
+        paths = os.pathsep.join([str(alone), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])])
+
         def run_alone(source, target):
             return subprocess.run([COMMAND, source, target, "--quads", "100"], capture_output=True, text=True,
-                                  env=dict(os.environ, LD_LIBRARY_PATH=str(alone)))
+                                  env=dict(os.environ, LD_LIBRARY_PATH=paths))
 
         result = run_alone(FOLDER / "named.step", FOLDER / "alone.inp")
         self.assertEqual(result.returncode, 2)
