@@ -8,7 +8,7 @@
 #include "Assembly/JointSheets.h"
 #include "Assembly/SheetBorders.h"
 #include "Assembly/SheetJoints.h"
-#include "Assembly/StripInsertion.h"
+#include "Quads/StripInsertion.h"
 #include "Pipeline/Pipeline.h"
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 ///
 /// A joint is cut into segments at its ends and branches, and where the quads of any sheet have a corner or a feature
 /// ends. On each segment the sheet with the most edges says how many there are; the others get strips of quads from one
-/// segment that lacks an edge to another one (see Assembly/StripInsertion.h). As the boundary of a quad mesh has an
+/// segment that lacks an edge to another one (see Quads/StripInsertion.h). As the boundary of a quad mesh has an
 /// even number of edges, a sheet without boundary of its own must lack an even number; where it does not, some
 /// segments get an edge more. Then points go to their places on the segments, and the inside is smoothed.
 #pragma once

@@ -32,6 +32,8 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
   { "pipeline", "components",
     "each connected component without a map is a run of its own, and so is the rest",
     "components" },
+  { "pipeline", "filled faces",
+    "faces without a map are cut out, and filled with quads beside those of the rest", "faces" },
   { "pipeline", "borders yield", "all begins again, with borders of patches that give way", "1" },
   { "pipeline", "without its guides", "the map is carried without the guides of the finer level",
     "1" },

@@ -27,6 +27,7 @@ enum class Try : std::uint8_t
   NoBorders,
   FewerDetails,
   Components,
+  FilledFaces,
   BordersYield,
   WithoutGuides,
   LargerPull,

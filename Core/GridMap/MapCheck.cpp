@@ -161,6 +161,25 @@ std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& fa
   return vertices;
 }
 
+std::vector<Index> facesOf(const Mesh& mesh, const MapDefects& defects)
+{
+  std::vector<Index> result = defects.notPositive;
+  std::transform(defects.reversed.begin(), defects.reversed.end(), std::back_inserter(result),
+    [](Index h) { return Mesh::face(h); });
+  if (result.empty())
+  {
+    result = idsWhere(mesh.faceCount(),
+      [&](Index f)
+      {
+        const Index* corner = &mesh.origin[3 * f];
+        return std::any_of(corner, corner + 3,
+          [&](Index v) { return contains(defects.wrongTurns, v); });
+      });
+  }
+  sortUnique(result);
+  return result;
+}
+
 std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects)
 {
   std::vector<Index> result = cornerVertices(mesh, defects.notPositive);

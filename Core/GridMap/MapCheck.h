@@ -77,6 +77,9 @@ std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field);
 /// The corners of the faces, ascending.
 std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& faces);
 
+/// The faces of all defects but turns, ascending; where there are none, those round vertices with wrong turns.
+std::vector<Index> facesOf(const Mesh& mesh, const MapDefects& defects);
+
 /// The vertices of all defects, ascending.
 std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects);
 

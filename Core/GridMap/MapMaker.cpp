@@ -80,15 +80,18 @@ struct Component
   double triedRefinement = 1, refinement = 1;
   bool seamlessReused = false, integersReused = false, embedReused = false;
   Status status;
-  std::vector<Index> failedAt; ///< vertices of the part
+  std::vector<Index> failedAt;    ///< vertices of the part
+  std::vector<Index> failedFaces; ///< of the part
 
   const CarriedMap* earlier() const { return previous.knownFaces > 0 ? &previous : nullptr; }
 
-  void fail(const Status& why, std::vector<FixedVec2> best, std::vector<Index> where)
+  void fail(const Status& why, std::vector<FixedVec2> best, std::vector<Index> where,
+    std::vector<Index> faces = {})
   {
     status = why;
     uv = std::move(best);
     failedAt = std::move(where);
+    failedFaces = std::move(faces);
   }
 };
 
@@ -403,7 +406,8 @@ private:
       {
         result_.collapsedFaces += seamless.collapsed;
         component.fail(seamless.status, std::move(seamless.uv),
-          join(cornerVertices(part.mesh, seamless.inverted), seamless.failedAt));
+          join(cornerVertices(part.mesh, seamless.inverted), seamless.failedAt),
+          std::move(seamless.failedFaces));
       }
       return false;
     }
@@ -505,7 +509,8 @@ private:
     }
     component.isTriedOnce = failures() > 0;
     component.fail(embedded.status, std::move(embedded.uv),
-      join(cornerVertices(part.mesh, embedded.inverted), embedded.failedAt));
+      join(cornerVertices(part.mesh, embedded.inverted), embedded.failedAt),
+      std::move(embedded.failedFaces));
   }
 
   /// The maps of the components become one.
@@ -536,6 +541,10 @@ private:
       {
         result_.failedAt.push_back(component.part.vertex[v]);
       }
+      for (const Index f : component.failedFaces)
+      {
+        result_.failedFaces.push_back(component.part.face[f]);
+      }
       if (component.status.ok())
       {
         continue;
@@ -551,6 +560,7 @@ private:
       }
     }
     std::sort(result_.failedAt.begin(), result_.failedAt.end());
+    std::sort(result_.failedFaces.begin(), result_.failedFaces.end());
     result_.certificate =
       certify(mesh_, result_.uv, result_.field.turns, integerVertices(mesh_, result_.field));
     if (result_.status.ok() && !hasPromised(result_.certificate, options_.method))

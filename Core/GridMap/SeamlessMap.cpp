@@ -25,6 +25,10 @@ void failSeamless(const Mesh& mesh, StatusCode code, const std::string& message,
 {
   result.status = { code, "seamless map: " + message };
   result.inverted = defects.notPositive;
+  if (result.failedFaces.empty())
+  {
+    result.failedFaces = facesOf(mesh, defects);
+  }
   if (result.failedAt.empty())
   {
     result.failedAt = verticesOf(mesh, defects);
@@ -51,6 +55,7 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
     return false;
   }
   result.failedAt = verticesOf(mesh, collapsed);
+  result.failedFaces = facesOf(mesh, collapsed);
   failSeamless(mesh, StatusCode::Infeasible,
     "features and irregular vertices leave no area to " +
       std::to_string(collapsed.notPositive.size()) + " triangles",
@@ -110,6 +115,7 @@ void explain(
     MapDefects ends = defects;
     ends.reversed.insert(ends.reversed.end(), chords.begin(), chords.end());
     result.failedAt = verticesOf(mesh, ends);
+    result.failedFaces = facesOf(mesh, ends);
     cause = "; " + std::to_string(chords.size()) +
       " edges are chords of straight features, with no vertex between them";
   }

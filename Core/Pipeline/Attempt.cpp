@@ -142,6 +142,13 @@ void recordCoarse(
     made.collapsed = map.collapsedFaces > 0;
     made.failedPlaces = positionsOf(levels.coarse.mesh, map.failedAt);
     made.failedAt = onFinest(map.failedAt, levels.coarse);
+    for (const Index f : map.failedFaces)
+    {
+      if (f < levels.coarse.fineFace.size()) // others are of the outset
+      {
+        made.failedFaces.push_back(levels.coarse.fineFace[f]);
+      }
+    }
     made.failedIn = onFinest(map.failedIn.empty() ? map.failedAt : map.failedIn, levels.coarse);
   }
 }

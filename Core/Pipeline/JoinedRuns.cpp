@@ -4,10 +4,13 @@
 
 #include "Base/Lists.h"
 #include "Mesh/ContentHash.h"
+#include "Quads/QuadTopology.h"
 
 #include <algorithm>
 #include <iomanip>
 #include <iterator>
+#include <map>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -63,6 +66,7 @@ void addCertificate(const Certificate& part, Index faces, Certificate& all)
     ? part.minimumDeterminant
     : std::min(all.minimumDeterminant, part.minimumDeterminant);
   all.triangles += part.triangles;
+  all.withoutMap += part.withoutMap;
   all.notPositive += part.notPositive;
   all.wrongTurns += part.wrongTurns;
   all.seamResiduals += part.seamResiduals;
@@ -140,6 +144,26 @@ void addExtraction(const ExtractionCounts& part, ExtractionCounts& all)
   all.cancelledQuads += part.cancelledQuads;
   all.droppedFaces += part.droppedFaces;
   all.filledHoles += part.filledHoles;
+}
+
+/// Each edge once; on the boundary where all of its lines are.
+void joinLines(QuadMesh& quads)
+{
+  std::map<std::pair<Index, Index>, std::size_t> known;
+  std::vector<QuadLine> lines;
+  for (const QuadLine& line : quads.lines)
+  {
+    const auto [at, isNew] = known.emplace(std::minmax(line.a, line.b), lines.size());
+    if (isNew)
+    {
+      lines.push_back(line);
+    }
+    else
+    {
+      lines[at->second].boundary = lines[at->second].boundary && line.boundary;
+    }
+  }
+  quads.lines = std::move(lines);
 }
 
 /// Means over the parts by the quads that they have, and the largest of what nearly all lies below.
@@ -257,6 +281,62 @@ void JoinedRuns::leaveOut(const SizedPart& part, const RemeshResult& made)
   failed.places = made.failed.places;
   failed.why = made.status.message;
   addFailed(part, failed);
+}
+
+void JoinedRuns::addFilled(const CutFaces& cut, FilledPart filled)
+{
+  const PreparedSurface& surface = cut.faces;
+  const Index faces = surface_.mesh.faceCount();
+  QuadMesh& all = joined_.quads;
+  const auto before = static_cast<Index>(all.points.size());
+  const auto shared = static_cast<Index>(filled.points.size());
+  joined_.mapKey = KeyMaker(joined_.mapKey).add(surface.hash).key();
+  joined_.uv.resize(joined_.uv.size() + surface.mesh.halfEdgeCount());
+  joined_.turns.resize(joined_.turns.size() + surface.mesh.vertexCount());
+  joined_.certificate.withoutMap += surface.mesh.faceCount();
+  surface_.unusedValences += surface.valenceRequests.size();
+  addQuadMesh(filled.quads, faces, all);
+  // Points of the rest stand for those that lie on them.
+  std::vector<Index> newId(all.points.size());
+  std::iota(newId.begin(), newId.end(), Index{ 0 });
+  for (Index i = 0; i < shared; ++i)
+  {
+    const Index p = filled.points[i];
+    newId[before + i] = p;
+    all.points[p] = filled.quads.points[i];
+    all.sourceFace[p] = filled.quads.sourceFace[i] + faces;
+    all.sourceWeights[p] = filled.quads.sourceWeights[i];
+  }
+  for (Index p = before + shared; p < newId.size(); ++p)
+  {
+    newId[p] = p - shared;
+  }
+  const auto erase = [&](auto& values)
+  { values.erase(values.begin() + before, values.begin() + before + shared); };
+  erase(all.points);
+  erase(all.sourceFace);
+  erase(all.sourceWeights);
+  for (std::array<Index, 4>& quad : all.quads)
+  {
+    for (Index& p : quad)
+    {
+      p = newId[p];
+    }
+  }
+  for (QuadLine& line : all.lines)
+  {
+    line.a = newId[line.a];
+    line.b = newId[line.b];
+  }
+  joinLines(all);
+  const QuadTopology topology = analyzeQuads(all.quads, all.points.size());
+  all.valence = topology.valence;
+  all.onBoundary = topology.onBoundary;
+  PreparedSurface added = surface;
+  added.components = 0; // those of the rest
+  added.valenceRequests.clear();
+  added.sectorRequests.clear();
+  appendSurface(added, surface_);
 }
 
 /// failed: of the part.

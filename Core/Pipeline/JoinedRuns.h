@@ -5,6 +5,7 @@
 
 #include "Mesh/SurfaceParts.h"
 #include "Pipeline/Division.h"
+#include "Pipeline/FaceDivision.h"
 #include "Pipeline/Pipeline.h"
 
 #include <cstddef>
@@ -22,6 +23,9 @@ public:
   void add(const SizedPart& part, RemeshResult made);
   /// A part without quads, of which `made` tells why.
   void leaveOut(const SizedPart& part, const RemeshResult& made);
+
+  /// Faces that go without a map, and their quads, whose first points are points of the rest; that is there already.
+  void addFilled(const CutFaces& cut, FilledPart filled);
 
   bool hasQuads() const { return !joined_.quads.quads.empty(); }
   /// result: has what is told of the whole, to which comes what the parts tell, have taken and have made. Returns the

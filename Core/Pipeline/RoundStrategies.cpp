@@ -9,6 +9,7 @@
 #include "Features/FeatureNetwork.h"
 #include "Features/GivenUpFeatures.h"
 #include "Mesh/Sizing.h"
+#include "Pipeline/FaceDivision.h"
 #include "Pipeline/FirstPlan.h"
 #include "Requests/Guides.h"
 
@@ -268,6 +269,13 @@ std::string borderNotice(const RunContext& run, const Mesh& mesh, const Plan& pl
   return text.str();
 }
 
+/// Faces without a map are filled with quads later, and keep their features.
+bool isLeftToFaces(const AttemptFailure& failure)
+{
+  return failure.withoutQuads && !failure.history.hasResult() &&
+    hasFailedInFaces(*failure.run.surface.surface, failure.run.options, failure.attempt);
+}
+
 /// The half-edges that `isOne` says so of.
 std::vector<Index> allOf(const Mesh& mesh, bool (*isOne)(const Mesh&, Index))
 {
@@ -435,7 +443,7 @@ std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
     }
     features = featuresNear(failure, drops);
   }
-  if (isTooLarge(attempt) || features.empty())
+  if (isTooLarge(attempt) || features.empty() || isLeftToFaces(failure))
   {
     return std::nullopt;
   }
@@ -450,7 +458,8 @@ std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
 std::optional<Plan> featuresAsOnScans(const AttemptFailure& failure)
 {
   const RunContext& run = failure.run;
-  if (!failure.withoutQuads || !run.surface->facets.isDesigned || isTooLarge(failure.attempt))
+  if (!failure.withoutQuads || !run.surface->facets.isDesigned || isTooLarge(failure.attempt) ||
+    isLeftToFaces(failure))
   {
     return std::nullopt;
   }
@@ -547,7 +556,8 @@ std::optional<Plan> noBorders(const AttemptFailure& failure)
   const Mesh& mesh = failure.surface->mesh;
   const Plan& before = failure.attempt.plan;
   const std::vector<Index> all = allOf(mesh, isYieldingFeature);
-  if (all.empty() || isTooLarge(failure.attempt) || before.borderDrops == 0)
+  if (all.empty() || isTooLarge(failure.attempt) || before.borderDrops == 0 ||
+    isLeftToFaces(failure))
   {
     return std::nullopt;
   }
@@ -565,7 +575,8 @@ std::optional<Plan> coarserFeatures(const AttemptFailure& failure)
 {
   const std::vector<std::string>& steps = failure.history.steps();
   const auto times = std::count(steps.begin(), steps.end(), tryRow(Try::CoarserFeatures).name);
-  return static_cast<std::size_t>(times) >= failure.bound || isTooLarge(failure.attempt)
+  return static_cast<std::size_t>(times) >= failure.bound || isTooLarge(failure.attempt) ||
+      isLeftToFaces(failure)
     ? std::nullopt
     : withCoarserFeatures(failure.run, failure.attempt.plan);
 }

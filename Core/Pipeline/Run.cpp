@@ -9,12 +9,15 @@
 #include "Pipeline/Attempt.h"
 #include "Pipeline/Division.h"
 #include "Pipeline/EnterFrame.h"
+#include "Pipeline/FaceDivision.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/History.h"
 #include "Pipeline/JoinedRuns.h"
 #include "Pipeline/Recovery.h"
 #include "Pipeline/Restarts.h"
 #include "Pipeline/RunResult.h"
+#include "Quads/QuadSmoothing.h"
+#include "Quads/QuadUntangling.h"
 
 #include <algorithm>
 #include <optional>
@@ -155,11 +158,13 @@ History makeAttempts(Settled& settled, SizedSurface& sized, const RemeshOptions&
       countTryLed(again->what, again->isCounted && history.hasResult() ? 1 : 0);
     }
   };
-  if (!history.hasResult() && !isDivided(sized, history))
+  const auto isOver = [&]
+  { return history.hasResult() || isDivided(sized, history) || isCutAtFaces(sized, options, history); };
+  if (!isOver())
   {
     beginAgain(withoutRest(settled, sized, options, store, first, history));
   }
-  if (!history.hasResult() && !isDivided(sized, history))
+  if (!isOver())
   {
     beginAgain(withYieldingBorders(settled, sized, first, history));
   }
@@ -234,6 +239,21 @@ Failure remeshParts(std::vector<SizedPart> parts, std::size_t work, Settled& set
   return failure;
 }
 
+/// What the whole has taken before its parts.
+void takeBefore(const History& history, Settled& settled, SizedSurface& sized, RemeshResult& result)
+{
+  result.tries.addTaken(history.tries());
+  result.work += history.work();
+  result.replays += history.replays();
+  if (settled.run)
+  {
+    result.decimations += settled.run->levels.decimations();
+    sized.stages.add("retries", history.seconds(), 0, 0);
+  }
+  result.stages = sized.stages.all();
+  result.reused = sized.reused;
+}
+
 /// The surface in parts: whether they have quads, which are those of the result then, and otherwise why not. history:
 /// of the whole.
 bool remeshDivided(const History& history, Settled& settled, SizedSurface& sized,
@@ -254,19 +274,58 @@ bool remeshDivided(const History& history, Settled& settled, SizedSurface& sized
     return false;
   }
   countTryLed(Try::Components);
-  result.tries.addTaken(history.tries());
-  result.work += history.work();
-  result.replays += history.replays();
-  if (settled.run)
-  {
-    result.decimations += settled.run->levels.decimations();
-    sized.stages.add("retries", history.seconds(), 0, 0);
-  }
-  result.stages = sized.stages.all();
-  result.reused = sized.reused;
+  takeBefore(history, settled, sized, result);
   sized.surface = std::make_shared<const PreparedSurface>(joined.take(result, options.threads));
   result.mapIsKnown =
     options.knownMap != 0 && result.mapKey == options.knownMap && !options.warmStart;
+  return true;
+}
+
+/// The faces in which the last attempt has failed are filled beside the quads of the rest; whether there are some then.
+bool remeshBesideFaces(const History& history, Settled& settled, SizedSurface& sized,
+  const Asked& asked, JoinedRuns& joined, RemeshResult& result, Failure& failure)
+{
+  countTry(Try::FilledFaces);
+  RemeshOptions options = asked.options;
+  options.smallDetails = SmallDetails::Keep; // those of the whole are settled
+  CutFaces cut = cutFailedFaces(sized, *history.last().map, options.threads);
+  RemeshResult made;
+  if (cut.rest)
+  {
+    const std::size_t work = boundOf(sized).work;
+    cut.rest->sized.work = std::max(work - std::min(work, history.work()),
+      leastOfPart(cut.rest->sized.surface->mesh.faceCount(), cut.rest->sized.targetQuads));
+    Settled own = settleDetails(cut.rest->sized, options, asked.store);
+    remeshSettled(own, cut.rest->sized, { asked.frame, options, asked.store, asked.quadsAlone }, made);
+    settled.decimations += own.decimations;
+    if (!made.status.ok())
+    {
+      failure = { made.status, made.failed.places };
+      joined.leaveOut(*cut.rest, made);
+      return false;
+    }
+  }
+  FilledPart filled = fillCutFaces(cut, cut.rest ? &cut.rest->sized.surface->mesh : nullptr,
+    cut.rest ? &made.quads : nullptr, sized.edgeLength);
+  if (!filled.failedAt.empty())
+  {
+    failure = { history.last().map->status, filled.failedAt };
+    return false;
+  }
+  countTryLed(Try::FilledFaces);
+  if (cut.rest)
+  {
+    joined.add(*cut.rest, std::move(made));
+  }
+  joined.addFilled(cut, std::move(filled));
+  takeBefore(history, settled, sized, result);
+  sized.surface = std::make_shared<const PreparedSurface>(joined.take(result, options.threads));
+  SmoothingOptions smoothing;
+  smoothing.steps = options.smoothingSteps;
+  smoothing.threads = options.threads;
+  smoothQuads(sized.surface->mesh, result.quads, smoothing);
+  untangleQuads(sized.surface->mesh, result.quads, { {}, options.threads });
+  result.notices.push_back(filledText(cut, sized.targetQuads));
   return true;
 }
 
@@ -286,11 +345,13 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   History history = makeAttempts(settled, sized, options, asked.store, result);
   RunContext& run = *settled.run;
   run.levels.letGo();
-  const bool failed = isDivided(sized, history);
+  const bool isInParts = isDivided(sized, history);
+  const bool failed = isInParts || isCutAtFaces(sized, options, history);
   if (failed)
   {
     history.packMaps(sized.surface->mesh);
-    if (remeshDivided(history, settled, sized, asked, joined, result, failure))
+    const auto remeshParted = isInParts ? remeshDivided : remeshBesideFaces;
+    if (remeshParted(history, settled, sized, asked, joined, result, failure))
     {
       return;
     }

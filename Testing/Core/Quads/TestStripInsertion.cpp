@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Assembly/StripInsertion.h"
+#include "Quads/StripInsertion.h"
 
 #include "Quads/QuadTopology.h"
 

@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filling/FaceCurves.h"
+
+#include "Mesh/CutOpen.h"
+#include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <map>
+
+namespace quadrille
+{
+namespace
+{
+
+/// A curve that bends by more than this has a corner, where the quads have a point.
+constexpr double kCornerAngle = 0.5235987755982988; // 30 degrees
+/// A closed curve has so many edges at least, or a face inside it would have too few.
+constexpr std::size_t kLeastOfClosed = 4;
+
+Index beginOf(const Mesh& mesh, const CurveStep& step)
+{
+  return step.forwards ? mesh.origin[step.h] : mesh.target(step.h);
+}
+
+Index endOf(const Mesh& mesh, const CurveStep& step)
+{
+  return step.forwards ? mesh.target(step.h) : mesh.origin[step.h];
+}
+
+std::vector<std::uint8_t> featureEdges(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> isFeature(mesh.halfEdgeCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    isFeature[h] = mesh.isFeature(h) ? 1 : 0;
+  }
+  return isFeature;
+}
+
+} // namespace
+
+FaceCurves::FaceCurves(const Mesh& mesh, std::vector<std::uint8_t> isGiven, double edgeLength)
+  : mesh_(mesh), isGiven_(std::move(isGiven)), edgeLength_(edgeLength),
+    edges_(constrainedEdges(mesh)), at_(mesh.vertexCount())
+{
+  Mesh opened = mesh;
+  cutOpen(opened, featureEdges(mesh));
+  faceOf_ = faceComponents(opened, faces_);
+  for (const Index h : edges_)
+  {
+    at_[mesh.origin[h]].push_back(h);
+    at_[mesh.target(h)].push_back(h);
+  }
+  findCurves();
+  findGroups();
+}
+
+/// Where curves end or meet, or where one has a corner.
+bool FaceCurves::isNode(Index v) const
+{
+  const std::vector<Index>& edges = at_[v];
+  if (edges.size() != 2 || isGiven_[edges[0]] != 0 || isGiven_[edges[1]] != 0)
+  {
+    return true;
+  }
+  const auto outgoing = [&](Index h) -> Vector3
+  { return mesh_.origin[h] == v ? mesh_.edgeVector(h) : Vector3(-mesh_.edgeVector(h)); };
+  const Vector3 a = outgoing(edges[0]), b = -outgoing(edges[1]);
+  return a.dot(b) < std::cos(kCornerAngle) * a.norm() * b.norm();
+}
+
+std::optional<CurveStep> FaceCurves::stepAfter(const CurveStep& step) const
+{
+  const Index v = endOf(mesh_, step);
+  if (isNode(v))
+  {
+    return std::nullopt;
+  }
+  const Index h = at_[v][0] == step.h ? at_[v][1] : at_[v][0];
+  return CurveStep{ h, mesh_.origin[h] == v };
+}
+
+FaceCurve FaceCurves::trace(CurveStep first, std::vector<std::uint8_t>& isDone) const
+{
+  FaceCurve curve;
+  const auto sides = [&](Index h)
+  {
+    return std::array<Index, 2>{ faceOf_[Mesh::face(h)],
+      mesh_.isBoundary(h) ? kInvalidIndex : faceOf_[Mesh::face(mesh_.twin[h])] };
+  };
+  curve.faces = sides(first.h);
+  for (std::optional<CurveStep> step = first; step && isDone[step->h] == 0; step = stepAfter(*step))
+  {
+    isDone[step->h] = 1;
+    curve.steps.push_back(*step);
+    curve.length += sizedLength(mesh_, step->h) / edgeLength_;
+  }
+  curve.closed = endOf(mesh_, curve.steps.back()) == beginOf(mesh_, first) &&
+    !isNode(beginOf(mesh_, first));
+  return curve;
+}
+
+/// From the nodes, then what is closed without one.
+void FaceCurves::findCurves()
+{
+  std::vector<std::uint8_t> isDone(mesh_.halfEdgeCount(), 0);
+  for (const bool fromNodes : { true, false })
+  {
+    for (const Index h : edges_)
+    {
+      for (const bool forwards : { true, false })
+      {
+        const CurveStep step{ h, forwards };
+        if (isGiven_[h] == 0 && isDone[h] == 0 && isNode(beginOf(mesh_, step)) == fromNodes)
+        {
+          curves_.push_back(trace(step, isDone));
+        }
+      }
+    }
+  }
+}
+
+void FaceCurves::findGroups()
+{
+  groupOf_.resize(faces_);
+  for (Index f = 0; f < faces_; ++f)
+  {
+    groupOf_[f] = f;
+  }
+  const auto root = [&](Index f)
+  {
+    while (groupOf_[f] != f)
+    {
+      f = groupOf_[f];
+    }
+    return f;
+  };
+  for (const FaceCurve& curve : curves_)
+  {
+    if (curve.faces[1] != kInvalidIndex)
+    {
+      const Index a = root(curve.faces[0]), b = root(curve.faces[1]);
+      groupOf_[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  reachesBoundary_.assign(faces_, 0);
+  for (Index f = 0; f < faces_; ++f)
+  {
+    groupOf_[f] = root(f);
+  }
+  for (const FaceCurve& curve : curves_)
+  {
+    if (curve.faces[1] == kInvalidIndex)
+    {
+      reachesBoundary_[groupOf_[curve.faces[0]]] = 1;
+    }
+  }
+}
+
+void FaceCurves::setGiven(std::vector<CurvePoint> points)
+{
+  given_ = std::move(points);
+  // A point at the end of an edge is one at the beginning of the next.
+  for (CurvePoint& point : given_)
+  {
+    if (point.t >= 1)
+    {
+      point = { nextOnBoundary(mesh_, point.h), 0 };
+    }
+  }
+  const auto placeOf = [&](const CurvePoint& p) { return positionOf(mesh_, p.onSurface()); };
+  std::vector<std::uint8_t> isTaken(given_.size(), 0);
+  for (Index h = 0; h < mesh_.halfEdgeCount() && !given_.empty(); ++h)
+  {
+    const Index v = mesh_.origin[h];
+    const bool isEnd = isGiven_[h] != 0 &&
+      std::any_of(at_[v].begin(), at_[v].end(), [&](Index e) { return isGiven_[e] == 0; });
+    const Index before = isEnd || !mesh_.isBoundary(h) || isGiven_[h] != 0 ? kInvalidIndex : h;
+    // A given part of the boundary ends where one that is free begins.
+    const bool isBehind = before != kInvalidIndex &&
+      std::any_of(at_[v].begin(), at_[v].end(), [&](Index e) { return isGiven_[e] != 0; });
+    if (!isEnd && !isBehind)
+    {
+      continue;
+    }
+    std::size_t nearest = given_.size();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < given_.size(); ++i)
+    {
+      const double distance = (placeOf(given_[i]) - mesh_.position[v]).squaredNorm();
+      if (isTaken[i] == 0 && distance < least)
+      {
+        least = distance;
+        nearest = i;
+      }
+    }
+    if (nearest < given_.size())
+    {
+      isTaken[nearest] = 1;
+      given_[nearest] = { h, 0 };
+    }
+  }
+}
+
+std::vector<Index> FaceCurves::chooseNumbers()
+{
+  std::vector<std::size_t> around(faces_, 0);
+  for (const CurvePoint& point : given_)
+  {
+    around[faceOf_[Mesh::face(point.h)]] += isGiven_[point.h];
+  }
+  for (FaceCurve& curve : curves_)
+  {
+    curve.edges = std::max(curve.closed ? kLeastOfClosed : std::size_t{ 1 },
+      static_cast<std::size_t>(std::llround(curve.length)));
+    for (const Index f : curve.faces)
+    {
+      if (f != kInvalidIndex)
+      {
+        around[f] += curve.edges;
+      }
+    }
+  }
+  const auto add = [&](FaceCurve& curve, std::size_t edges)
+  {
+    curve.edges += edges;
+    for (const Index f : curve.faces)
+    {
+      if (f != kInvalidIndex)
+      {
+        around[f] += edges;
+      }
+    }
+  };
+  // Two edges round a face would lie on each other.
+  for (FaceCurve& curve : curves_)
+  {
+    const bool isTight = std::any_of(curve.faces.begin(), curve.faces.end(),
+      [&](Index f) { return f != kInvalidIndex && around[f] < 4; });
+    if (isTight && curve.edges < 3)
+    {
+      add(curve, 2);
+    }
+  }
+  // A tree over the faces of each group, and over what is outside, where one is reached: from its leaves on an odd face
+  // passes an edge on to the one before it.
+  std::vector<std::vector<std::pair<std::size_t, Index>>> beside(std::size_t{ faces_ } + 1);
+  for (std::size_t c = 0; c < curves_.size(); ++c)
+  {
+    const Index a = curves_[c].faces[0];
+    const Index b = curves_[c].faces[1] == kInvalidIndex ? faces_ : curves_[c].faces[1];
+    if (a != b)
+    {
+      beside[a].emplace_back(c, b);
+      beside[b].emplace_back(c, a);
+    }
+  }
+  std::vector<std::uint8_t> isReached(std::size_t{ faces_ } + 1, 0);
+  std::vector<std::pair<Index, std::size_t>> order; // face, the curve that leads to it
+  std::vector<Index> before(std::size_t{ faces_ } + 1, kInvalidIndex);
+  std::vector<Index> roots;
+  for (Index i = 0; i <= faces_; ++i)
+  {
+    const Index root = i == 0 ? faces_ : i - 1; // what is outside comes first
+    if (isReached[root] != 0)
+    {
+      continue;
+    }
+    isReached[root] = 1;
+    roots.push_back(root);
+    std::deque<Index> queue{ root };
+    while (!queue.empty())
+    {
+      const Index face = queue.front();
+      queue.pop_front();
+      for (const auto& [c, next] : beside[face])
+      {
+        if (isReached[next] == 0)
+        {
+          isReached[next] = 1;
+          before[next] = face;
+          order.emplace_back(next, c);
+          queue.push_back(next);
+        }
+      }
+    }
+  }
+  std::vector<Index> odd;
+  for (auto step = order.rbegin(); step != order.rend(); ++step)
+  {
+    if (around[step->first] % 2 != 0)
+    {
+      FaceCurve& curve = curves_[step->second];
+      const bool isShortened =
+        static_cast<double>(curve.edges) > std::max(curve.length, curve.closed ? 4.0 : 1.0);
+      add(curve, isShortened ? std::size_t(-1) : 1);
+    }
+  }
+  for (const Index root : roots)
+  {
+    if (root < faces_ && around[root] % 2 != 0)
+    {
+      odd.push_back(root);
+    }
+  }
+  return odd;
+}
+
+} // namespace quadrille

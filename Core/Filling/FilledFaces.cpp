@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filling/FilledFaces.h"
+
+#include "Base/Progress.h"
+#include "Filling/FaceFilling.h"
+#include "Mesh/CutOpen.h"
+#include "Mesh/NearestTriangle.h"
+#include "Mesh/Sizing.h"
+#include "Mesh/Surface.h"
+#include "Mesh/SurfaceEdit.h"
+#include "Mesh/Topology.h"
+#include "Quads/QuadShape.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+class FilledFacesMaker
+{
+public:
+  FilledFacesMaker(const Mesh& mesh, const FaceCurves& curves, double edgeLength)
+    : mesh_(mesh), curves_(curves), edgeLength_(edgeLength),
+      atVertex_(mesh.vertexCount(), kInvalidIndex)
+  {
+  }
+
+  FilledFaces make()
+  {
+    placeGiven();
+    for (const FaceCurve& curve : curves_.curves())
+    {
+      placeAlong(curve);
+    }
+    open();
+    Index faces = 0;
+    const std::vector<Index> faceOf = faceComponents(opened_.mesh, faces);
+    std::vector<std::vector<Index>> ofFace(faces);
+    for (Index f = 0; f < faceOf.size(); ++f)
+    {
+      ofFace[faceOf[f]].push_back(f);
+    }
+    for (const std::vector<Index>& triangles : ofFace)
+    {
+      poll();
+      fill(triangles);
+    }
+    return std::move(made_);
+  }
+
+private:
+  struct EdgePoint
+  {
+    double t;
+    Index point;
+  };
+
+  Index addPoint(const SurfacePoint& place)
+  {
+    QuadMesh& quads = made_.quads;
+    quads.points.push_back(positionOf(mesh_, place));
+    quads.sourceFace.push_back(place.face);
+    quads.sourceWeights.push_back(place.weights);
+    return static_cast<Index>(quads.points.size() - 1);
+  }
+
+  /// On the lower half-edge of an edge, inside of it.
+  void putOn(Index h, double t, Index point)
+  {
+    const bool isLower = mesh_.isBoundary(h) || h < mesh_.twin[h];
+    onEdge_[isLower ? h : mesh_.twin[h]].push_back({ isLower ? t : 1 - t, point });
+  }
+
+  void placeGiven()
+  {
+    for (const CurvePoint& at : curves_.given())
+    {
+      const Index point = addPoint(at.onSurface());
+      if (at.t <= 0)
+      {
+        atVertex_[mesh_.origin[at.h]] = point;
+      }
+      else
+      {
+        putOn(at.h, at.t, point);
+      }
+    }
+  }
+
+  void placeAt(Index v, Index h)
+  {
+    if (atVertex_[v] == kInvalidIndex)
+    {
+      atVertex_[v] = addPoint({ Mesh::face(h), cornerWeight(h) });
+    }
+  }
+
+  void placeAlong(const FaceCurve& curve)
+  {
+    const auto begin = [&](const CurveStep& step)
+    { return step.forwards ? step.h : Mesh::next(step.h); };
+    const auto end = [&](const CurveStep& step)
+    { return step.forwards ? Mesh::next(step.h) : step.h; };
+    const Index first = begin(curve.steps.front()), last = end(curve.steps.back());
+    placeAt(mesh_.origin[first], first);
+    placeAt(mesh_.origin[last], last);
+    const double apart = curve.length / static_cast<double>(curve.edges);
+    double gone = 0;
+    std::size_t next = 1;
+    for (const CurveStep& step : curve.steps)
+    {
+      const double length = sizedLength(mesh_, step.h) / edgeLength_;
+      for (; next < curve.edges && apart * static_cast<double>(next) < gone + length; ++next)
+      {
+        const double part = (apart * static_cast<double>(next) - gone) / length;
+        const double t = step.forwards ? part : 1 - part;
+        putOn(step.h, t, addPoint(CurvePoint{ step.h, t }.onSurface()));
+      }
+      gone += length;
+    }
+  }
+
+  /// Cuts the faces apart, and splits edges such that all points are at vertices.
+  void open()
+  {
+    const Index faces = mesh_.faceCount();
+    opened_.mesh = mesh_;
+    std::vector<Index> polygons(faces);
+    std::iota(polygons.begin(), polygons.end(), Index{ 0 });
+    opened_.sourcePolygon = std::move(polygons);
+    opened_.sourcePoints = std::vector<std::array<Index, 3>>(faces);
+    std::vector<std::uint8_t> isFeature(mesh_.halfEdgeCount(), 0);
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      isFeature[h] = mesh_.isFeature(h) ? 1 : 0;
+    }
+    pointAt_ = atVertex_;
+    for (const Index v : cutOpen(opened_.mesh, isFeature))
+    {
+      pointAt_.push_back(Index{ atVertex_[v] });
+    }
+    const Mesh& mesh = opened_.mesh;
+    from_.assign(mesh.vertexCount(), kInvalidIndex);
+    onSurface_.assign(mesh.vertexCount(), kInvalidIndex);
+    std::vector<std::pair<Index, Index>> begins; // half-edge of the mesh, vertex
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      if (mesh.isBoundary(h))
+      {
+        from_[mesh.origin[h]] = h;
+        onSurface_[mesh.origin[h]] = h;
+        begins.emplace_back(h, mesh.origin[h]);
+      }
+    }
+    for (const auto& [h, v] : begins)
+    {
+      splitAlong(h, v);
+    }
+  }
+
+  /// h: of the surface; v: where it begins in the opened mesh.
+  void splitAlong(Index h, Index v)
+  {
+    const bool isLower = mesh_.isBoundary(h) || h < mesh_.twin[h];
+    const auto found = onEdge_.find(isLower ? h : mesh_.twin[h]);
+    if (found == onEdge_.end())
+    {
+      return;
+    }
+    std::vector<EdgePoint> points = found->second;
+    for (EdgePoint& point : points)
+    {
+      point.t = isLower ? point.t : 1 - point.t;
+    }
+    std::stable_sort(points.begin(), points.end(),
+      [](const EdgePoint& a, const EdgePoint& b) { return a.t < b.t; });
+    double before = 0;
+    for (const EdgePoint& point : points)
+    {
+      const Index half = from_[v];
+      const Index face = opened_.mesh.faceCount();
+      const Index m = splitEdge(opened_, half, (point.t - before) / (1 - before));
+      const Index rest = 3 * face + half % 3; // from m on
+      pointAt_.push_back(Index{ point.point });
+      from_.push_back(Index{ rest });
+      onSurface_.push_back(Index{ h });
+      const Index behind = Mesh::next(rest); // was moved there
+      if (opened_.mesh.isBoundary(behind))
+      {
+        from_[opened_.mesh.origin[behind]] = behind;
+      }
+      before = point.t;
+      v = m;
+    }
+  }
+
+  /// One face, of these triangles of the opened mesh.
+  void fill(const std::vector<Index>& triangles)
+  {
+    Mesh face;
+    std::map<Index, Index> newVertex, newFace;
+    std::vector<Index> vertexOf;
+    for (const Index f : triangles)
+    {
+      const auto id = static_cast<Index>(newFace.size());
+      newFace.emplace(f, id);
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        const Index v = opened_.mesh.origin[h];
+        if (newVertex.emplace(v, static_cast<Index>(vertexOf.size())).second)
+        {
+          vertexOf.push_back(v);
+          face.position.push_back(Vector3(opened_.mesh.position[v]));
+          if (!opened_.mesh.sizing.empty())
+          {
+            face.sizing.push_back(float{ opened_.mesh.sizing[v] });
+          }
+        }
+        face.origin.push_back(Index{ newVertex[v] });
+        face.flags.push_back(0);
+      }
+    }
+    for (const Index f : triangles)
+    {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        const Index twin = opened_.mesh.twin[h];
+        face.twin.push_back(
+          twin == kInvalidIndex ? kInvalidIndex : 3 * newFace[Mesh::face(twin)] + twin % 3);
+      }
+    }
+    std::vector<std::uint8_t> isPin(face.vertexCount(), 0);
+    for (Index v = 0; v < face.vertexCount(); ++v)
+    {
+      isPin[v] = face.twin.empty() || pointAt_[vertexOf[v]] == kInvalidIndex ? 0 : 1;
+    }
+    const std::size_t around = addLines(face, vertexOf);
+    if (around == 2)
+    {
+      return;
+    }
+    const std::optional<FaceFill> filled = fillFace(face, isPin, edgeLength_);
+    if (!filled)
+    {
+      made_.failedAt.push_back(face.middleOfFace(0));
+      return;
+    }
+    std::vector<Index> pointOf(face.vertexCount() + filled->points.size(), kInvalidIndex);
+    for (Index v = 0; v < face.vertexCount(); ++v)
+    {
+      pointOf[v] = pointAt_[vertexOf[v]];
+    }
+    for (std::size_t i = 0; i < filled->points.size(); ++i)
+    {
+      pointOf[face.vertexCount() + i] =
+        addPoint(onMesh(triangles[filled->sourceFace[i]], filled->sourceWeights[i]));
+    }
+    for (std::array<Index, 4> quad : filled->quads)
+    {
+      for (Index& p : quad)
+      {
+        p = pointOf[p];
+      }
+      made_.quads.quads.push_back(quad);
+      made_.quads.quadSourceFace.push_back(made_.quads.sourceFace[quad[0]]);
+      made_.quads.quadSourceWeights.push_back({});
+    }
+    placeQuads(face, triangles, made_.quads.quads.size() - filled->quads.size());
+  }
+
+  /// A place in a triangle of the opened mesh.
+  SurfacePoint onMesh(Index f, const std::array<double, 3>& weights) const
+  {
+    const Index source = opened_.sourcePolygon[f];
+    const Index entry = opened_.refinedEntry.empty() ? kInvalidIndex : opened_.refinedEntry[f];
+    if (entry == kInvalidIndex)
+    {
+      return { source, weights };
+    }
+    std::array<double, 3> there{};
+    for (std::size_t corner = 0; corner < 3; ++corner)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        there[k] += weights[corner] * opened_.cornerWeights[entry][corner][k];
+      }
+    }
+    return { source, there };
+  }
+
+  /// The face of the surface under each quad from `first` on: the one nearest to its middle.
+  void placeQuads(const Mesh& face, const std::vector<Index>& triangles, std::size_t first)
+  {
+    TriangleList list;
+    list.points = face.position.vector();
+    for (Index h = 0; h < face.halfEdgeCount(); h += 3)
+    {
+      list.corners.push_back({ face.origin[h], face.origin[h + 1], face.origin[h + 2] });
+    }
+    const NearestTriangle nearest(std::move(list));
+    QuadMesh& quads = made_.quads;
+    for (std::size_t q = first; q < quads.quads.size(); ++q)
+    {
+      Vector3 middle = Vector3::Zero();
+      for (const Vector3& p : cornersOf(quads.points, quads.quads[q]))
+      {
+        middle += p / 4;
+      }
+      quads.quadSourceFace[q] = opened_.sourcePolygon[triangles[nearest.at(middle)->triangle]];
+    }
+  }
+
+  /// Round one face; returns how many edges there are.
+  std::size_t addLines(const Mesh& face, const std::vector<Index>& vertexOf)
+  {
+    std::size_t around = 0;
+    for (Index h = 0; h < face.halfEdgeCount(); ++h)
+    {
+      const Index a = pointAt_[vertexOf[face.origin[h]]];
+      if (!face.isBoundary(h) || a == kInvalidIndex)
+      {
+        continue;
+      }
+      ++around;
+      Index b = kInvalidIndex;
+      for (Index g = nextOnBoundary(face, h); b == kInvalidIndex; g = nextOnBoundary(face, g))
+      {
+        b = pointAt_[vertexOf[face.origin[g]]];
+      }
+      if (lines_.insert(std::minmax(a, b)).second)
+      {
+        const Index edge = onSurface_[vertexOf[face.origin[h]]];
+        made_.quads.lines.push_back(
+          { a, b, edge, mesh_.isBoundary(edge) && !curves_.isGiven(edge) });
+      }
+    }
+    return around;
+  }
+
+  const Mesh& mesh_;
+  const FaceCurves& curves_;
+  double edgeLength_;
+  FilledFaces made_;
+  std::vector<Index> atVertex_;                        ///< #V: point of the quads there
+  std::map<Index, std::vector<EdgePoint>> onEdge_;     ///< by the lower half-edge
+  PreparedSurface opened_;                             ///< its source polygons are faces of the mesh
+  std::vector<Index> pointAt_;                         ///< #V of the opened mesh
+  std::vector<Index> from_;                            ///< #V of it: the half-edge of the boundary that leaves it
+  std::vector<Index> onSurface_;                       ///< the same, of the mesh
+  std::set<std::pair<Index, Index>> lines_;
+};
+
+} // namespace
+
+FilledFaces fillFaces(const Mesh& mesh, const FaceCurves& curves, double edgeLength)
+{
+  return FilledFacesMaker(mesh, curves, edgeLength).make();
+}
+
+} // namespace quadrille

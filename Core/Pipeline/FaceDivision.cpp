@@ -1,0 +1,363 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/FaceDivision.h"
+
+#include "Base/Lists.h"
+#include "Base/PlaceText.h"
+#include "Filling/FaceCurves.h"
+#include "Filling/FilledFaces.h"
+#include "Mesh/CutOpen.h"
+#include "Mesh/NearestTriangle.h"
+#include "Mesh/Sizing.h"
+#include "Mesh/SurfaceParts.h"
+#include "Mesh/Topology.h"
+#include "Pipeline/Strategies.h"
+#include "Quads/QuadMoves.h"
+#include "Quads/QuadTopology.h"
+#include "Quads/StripInsertion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <map>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+/// Points of the quads on the boundary lie on that of the faces, up to rounding; in edge lengths.
+constexpr double kSamePlace = 1e-6;
+/// Quads get so many strips at most.
+constexpr std::size_t kMostStrips = 100;
+
+std::vector<Index> faceLabels(const Mesh& mesh)
+{
+  return FaceCurves(mesh, std::vector<std::uint8_t>(mesh.halfEdgeCount(), 0), 1).faceOf();
+}
+
+/// A segment tree of the boundary that is shared.
+class SharedBoundary
+{
+public:
+  explicit SharedBoundary(const CutFaces& cut)
+  {
+    TriangleList list;
+    list.points = cut.faces.mesh.position.vector();
+    for (Index h = 0; h < cut.faces.mesh.halfEdgeCount(); ++h)
+    {
+      if (cut.isShared[h] != 0)
+      {
+        const Index a = cut.faces.mesh.origin[h];
+        list.corners.push_back({ a, cut.faces.mesh.target(h), a });
+        halfEdges_.push_back(h);
+      }
+    }
+    segments_.emplace(std::move(list));
+  }
+
+  std::optional<CurvePoint> at(const Vector3& place, double within) const
+  {
+    const auto found = segments_->at(place, Vector3::Zero(), within);
+    if (!found)
+    {
+      return std::nullopt;
+    }
+    constexpr double rounding = 1e-9;
+    const double t = found->weights[1];
+    return CurvePoint{ halfEdges_[found->triangle],
+      t < rounding       ? 0
+        : 1 - t < rounding ? 1
+                         : t };
+  }
+
+private:
+  std::vector<Index> halfEdges_;
+  std::optional<NearestTriangle> segments_;
+};
+
+/// Copies of points that a strip has left at one place go apart, by a third of the way to their neighbours across.
+void spreadStrip(const Mesh& mesh, QuadMesh& quads, const InsertedStrip& strip)
+{
+  constexpr double share = 1.0 / 3;
+  std::set<Index> onStrip;
+  for (const auto& [left, right] : strip.points)
+  {
+    onStrip.insert(left);
+    onStrip.insert(right);
+  }
+  std::map<Index, std::vector<Vector3>> beside;
+  for (const std::array<Index, 4>& quad : quads.quads)
+  {
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      for (const std::size_t k : { (i + 1) % 4, (i + 3) % 4 })
+      {
+        if (onStrip.count(quad[i]) != 0 && onStrip.count(quad[k]) == 0)
+        {
+          beside[quad[i]].push_back(quads.points[quad[k]]);
+        }
+      }
+    }
+  }
+  QuadMoves moves(mesh, quads, {});
+  for (const auto& [p, others] : beside)
+  {
+    Vector3 way = Vector3::Zero();
+    for (const Vector3& other : others)
+    {
+      way += share / static_cast<double>(others.size()) * (other - quads.points[p]);
+    }
+    if (const std::optional<SurfacePoint> there = moves.target(p, way))
+    {
+      moves.move(p, *there, positionOf(mesh, *there));
+    }
+  }
+}
+
+/// Fills faces beside quads.
+class FillingBeside
+{
+public:
+  FillingBeside(const CutFaces& cut, const Mesh* restMesh, QuadMesh* restQuads, double edgeLength)
+    : cut_(cut), restMesh_(restMesh), restQuads_(restQuads), edgeLength_(edgeLength),
+      curves_(cut.faces.mesh, cut.isShared, edgeLength)
+  {
+    if (restMesh_ != nullptr)
+    {
+      boundary_.emplace(cut);
+    }
+  }
+
+  FilledPart make()
+  {
+    FilledPart made;
+    std::vector<Index> odd;
+    for (std::size_t strips = 0; strips <= kMostStrips; ++strips)
+    {
+      findShared();
+      curves_.setGiven(places_);
+      odd = curves_.chooseNumbers();
+      if (odd.empty() || !insertStrip(odd))
+      {
+        break;
+      }
+    }
+    if (!odd.empty())
+    {
+      for (const Index face : odd)
+      {
+        made.failedAt.push_back(placeOf(face));
+      }
+      return made;
+    }
+    FilledFaces filled = fillFaces(cut_.faces.mesh, curves_, edgeLength_);
+    made.quads = std::move(filled.quads);
+    made.failedAt = std::move(filled.failedAt);
+    made.points = std::move(points_);
+    return made;
+  }
+
+private:
+  Vector3 placeOf(Index face) const
+  {
+    const auto& faceOf = curves_.faceOf();
+    const auto found = std::find(faceOf.begin(), faceOf.end(), face);
+    return cut_.faces.mesh.middleOfFace(static_cast<Index>(found - faceOf.begin()));
+  }
+
+  /// The points of the rest on the common boundary.
+  void findShared()
+  {
+    points_.clear();
+    places_.clear();
+    if (restQuads_ == nullptr)
+    {
+      return;
+    }
+    const QuadTopology topology = analyzeQuads(restQuads_->quads, restQuads_->points.size());
+    for (Index p = 0; p < restQuads_->points.size(); ++p)
+    {
+      if (topology.onBoundary[p] == 0)
+      {
+        continue;
+      }
+      if (const auto place = boundary_->at(restQuads_->points[p], kSamePlace * edgeLength_))
+      {
+        points_.push_back(p);
+        places_.push_back(*place);
+      }
+    }
+  }
+
+  /// From the first of the odd groups to another one, or to a boundary that is free. False where no path leads there.
+  bool insertStrip(const std::vector<Index>& odd)
+  {
+    if (restQuads_ == nullptr)
+    {
+      return false;
+    }
+    const std::vector<Index>& groups = curves_.groupOf();
+    std::map<Index, Index> groupOfPoint;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+    {
+      const CurvePoint& place = curves_.given()[i];
+      if (place.t > 0) // what ends at a vertex stays there
+      {
+        groupOfPoint[points_[i]] = groups[curves_.faceOf()[Mesh::face(place.h)]];
+      }
+    }
+    const Index from = groups[odd.front()];
+    std::vector<std::pair<Index, double>> starts;
+    for (const auto& [p, group] : groupOfPoint)
+    {
+      if (group == from)
+      {
+        starts.emplace_back(p, 0);
+      }
+    }
+    const std::set<Index> onShared(points_.begin(), points_.end());
+    constexpr double throughEven = 1000;
+    constexpr double toBoundary = 100;
+    const auto endCost = [&](Index, Index end) -> std::optional<double>
+    {
+      const auto found = groupOfPoint.find(end);
+      if (found == groupOfPoint.end())
+      {
+        return onShared.count(end) != 0 ? std::nullopt : std::optional<double>(toBoundary);
+      }
+      if (found->second == from)
+      {
+        return std::nullopt;
+      }
+      const bool isOdd = std::any_of(
+        odd.begin(), odd.end(), [&](Index f) { return groups[f] == found->second; });
+      return isOdd ? 0 : throughEven;
+    };
+    const std::optional<QuadPath> path = findStripPath(*restQuads_, starts, endCost);
+    if (!path)
+    {
+      return false;
+    }
+    const InsertedStrip strip = quadrille::insertStrip(*restQuads_, *path);
+    spreadStrip(*restMesh_, *restQuads_, strip);
+    return true;
+  }
+
+  const CutFaces& cut_;
+  const Mesh* restMesh_;
+  QuadMesh* restQuads_;
+  double edgeLength_;
+  FaceCurves curves_;
+  std::optional<SharedBoundary> boundary_;
+  std::vector<Index> points_; ///< of the rest, on the common boundary
+  std::vector<CurvePoint> places_;
+};
+
+} // namespace
+
+bool isCutAtFaces(
+  const SizedSurface& sized, const RemeshOptions& options, const History& history)
+{
+  return !history.hasResult() && history.attempts() > 0 &&
+    hasFailedInFaces(*sized.surface, options, history.last());
+}
+
+bool hasFailedInFaces(
+  const PreparedSurface& surface, const RemeshOptions& options, const Attempt& attempt)
+{
+  if (!surface.facets.isDesigned || options.preview || options.method != MapMethod::ScaleAware ||
+    attempt.map->failedFaces.empty() || isTooLarge(attempt))
+  {
+    return false;
+  }
+  const std::vector<Index> labels = faceLabels(surface.mesh);
+  return std::any_of(labels.begin(), labels.end(), [](Index label) { return label > 0; });
+}
+
+std::string filledText(const CutFaces& cut, std::size_t quads)
+{
+  std::ostringstream text;
+  text << "ask for more than " << quads << " quads: " << cut.count
+       << (cut.count == 1 ? " face" : " faces") << " between sharp edges, with "
+       << std::setprecision(2) << 100 * cut.share << " % of the area, near "
+       << placeText(cut.faces.mesh.middleOfFace(0)) << (cut.count == 1 ? ", has" : ", have")
+       << " no map with quads of this size; the edges are kept, and inside there are quads that "
+          "follow no direction";
+  return text.str();
+}
+
+CutFaces cutFailedFaces(const SizedSurface& whole, const MapAttempt& failed, int threads)
+{
+  const std::vector<Index> labels = faceLabels(whole.surface->mesh);
+  std::vector<std::uint8_t> isFailed(*std::max_element(labels.begin(), labels.end()) + 1, 0);
+  for (const Index f : failed.failedFaces)
+  {
+    isFailed[labels[f]] = 1;
+  }
+  CutFaces cut;
+  cut.count = static_cast<std::size_t>(std::count(isFailed.begin(), isFailed.end(), std::uint8_t{ 1 }));
+  PreparedSurface opened = *whole.surface;
+  const Mesh& mesh = whole.surface->mesh;
+  const auto isOut = [&](Index h) { return isFailed[labels[Mesh::face(h)]] != 0; };
+  std::vector<std::uint8_t> isCut(mesh.halfEdgeCount(), 0);
+  std::vector<Index> partOfFace(mesh.faceCount(), 0);
+  double all = 0, out = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const bool isOne = isOut(3 * f);
+    partOfFace[f] = isOne ? 0 : 1;
+    const double area = sizedArea(mesh, f);
+    all += area;
+    out += isOne ? area : 0;
+  }
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!mesh.isBoundary(h) && isOut(h) != isOut(mesh.twin[h]))
+    {
+      isCut[h] = 1;
+      opened.mesh.flags.edit()[h] = 0;
+    }
+  }
+  cutOpen(opened.mesh, isCut);
+  cut.share = out / all;
+  const bool hasRest = cut.count < isFailed.size();
+  std::vector<ComponentPart> parts = splitSurface(opened, partOfFace, hasRest ? 2 : 1, threads);
+  cut.faces = std::move(parts[0].surface);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (isOut(h))
+    {
+      cut.isShared.push_back(isCut[h]);
+    }
+  }
+  const auto countComponents = [&](PreparedSurface& surface)
+  { faceComponents(surface.mesh, surface.components, threads); };
+  countComponents(cut.faces);
+  if (hasRest)
+  {
+    countComponents(parts[1].surface);
+    SizedPart& rest = cut.rest.emplace();
+    rest.share = 1 - cut.share;
+    rest.curves = std::move(parts[1].curves);
+    SizedSurface& sized = rest.sized;
+    sized.edgeLength = whole.edgeLength;
+    sized.targetQuads = static_cast<std::size_t>(
+      std::max(1.0, std::round(rest.share * static_cast<double>(whole.targetQuads))));
+    sized.key = KeyMaker(whole.key).add(parts[1].surface.hash).key();
+    sized.surface = std::make_shared<const PreparedSurface>(std::move(parts[1].surface));
+  }
+  return cut;
+}
+
+FilledPart fillCutFaces(
+  const CutFaces& cut, const Mesh* restMesh, QuadMesh* restQuads, double edgeLength)
+{
+  return FillingBeside(cut, restMesh, restQuads, edgeLength).make();
+}
+
+} // namespace quadrille

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// A failure stays in its face: where a surface of one connected component has no map, the faces between features in
+/// which that was are cut out, and filled with quads once the rest has some.
+#pragma once
+
+#include "Pipeline/Division.h"
+#include "Pipeline/Pipeline.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+struct CutFaces
+{
+  PreparedSurface faces;              ///< that go without a map, with the features between them
+  std::vector<std::uint8_t> isShared; ///< #H of its mesh: of its boundary, where the rest was
+  double share = 0;                   ///< of the area over the sizes
+  std::size_t count = 0;
+  std::optional<SizedPart> rest;      ///< none where these are all
+};
+
+/// Whether the last attempt has failed in faces that can be cut out.
+bool isCutAtFaces(
+  const SizedSurface& sized, const RemeshOptions& options, const History& history);
+/// The same of one attempt without quads.
+bool hasFailedInFaces(
+  const PreparedSurface& surface, const RemeshOptions& options, const Attempt& attempt);
+CutFaces cutFailedFaces(const SizedSurface& whole, const MapAttempt& failed, int threads);
+
+/// The faces with quads that meet those of the rest.
+struct FilledPart
+{
+  QuadMesh quads;            ///< on the mesh of the faces; the first points are those of the rest
+  std::vector<Index> points; ///< which of the rest's these are
+  std::vector<Vector3> failedAt; ///< why there are none
+};
+/// What to tell of them.
+std::string filledText(const CutFaces& cut, std::size_t quads);
+
+/// rest: the surface and the quads of the rest, which get strips of quads where an odd number of edges goes round a
+/// face.
+FilledPart fillCutFaces(
+  const CutFaces& cut, const Mesh* restMesh, QuadMesh* restQuads, double edgeLength);
+
+} // namespace quadrille
