@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filling/FaceCurves.h"
 
+#include "Base/Lists.h"
 #include "Mesh/CutOpen.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
@@ -9,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
-#include <map>
+#include <set>
+#include <tuple>
 
 namespace quadrille
 {
@@ -162,6 +163,19 @@ void FaceCurves::findGroups()
   }
 }
 
+/// Half-edges of the boundary at whose beginnings curves end on a given part, or that part itself.
+std::vector<Index> FaceCurves::endsOnGiven() const
+{
+  return idsWhere(mesh_.halfEdgeCount(),
+    [&](Index h)
+    {
+      const std::vector<Index>& edges = at_[mesh_.origin[h]];
+      const auto given = std::count_if(
+        edges.begin(), edges.end(), [&](Index e) { return isGiven_[e] != 0; });
+      return mesh_.isBoundary(h) && given > 0 && given < static_cast<long>(edges.size());
+    });
+}
+
 void FaceCurves::setGiven(std::vector<CurvePoint> points)
 {
   given_ = std::move(points);
@@ -173,36 +187,26 @@ void FaceCurves::setGiven(std::vector<CurvePoint> points)
       point = { nextOnBoundary(mesh_, point.h), 0 };
     }
   }
-  const auto placeOf = [&](const CurvePoint& p) { return positionOf(mesh_, p.onSurface()); };
-  std::vector<std::uint8_t> isTaken(given_.size(), 0);
-  for (Index h = 0; h < mesh_.halfEdgeCount() && !given_.empty(); ++h)
+  const std::vector<Index> ends = endsOnGiven();
+  std::vector<std::tuple<double, Index, std::size_t>> pairs; // the nearest first
+  for (const Index h : ends)
   {
-    const Index v = mesh_.origin[h];
-    const bool isEnd = isGiven_[h] != 0 &&
-      std::any_of(at_[v].begin(), at_[v].end(), [&](Index e) { return isGiven_[e] == 0; });
-    const Index before = isEnd || !mesh_.isBoundary(h) || isGiven_[h] != 0 ? kInvalidIndex : h;
-    // A given part of the boundary ends where one that is free begins.
-    const bool isBehind = before != kInvalidIndex &&
-      std::any_of(at_[v].begin(), at_[v].end(), [&](Index e) { return isGiven_[e] != 0; });
-    if (!isEnd && !isBehind)
-    {
-      continue;
-    }
-    std::size_t nearest = given_.size();
-    double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < given_.size(); ++i)
     {
-      const double distance = (placeOf(given_[i]) - mesh_.position[v]).squaredNorm();
-      if (isTaken[i] == 0 && distance < least)
-      {
-        least = distance;
-        nearest = i;
-      }
+      pairs.emplace_back((positionOf(mesh_, given_[i].onSurface()) - mesh_.position[mesh_.origin[h]])
+                           .squaredNorm(),
+        h, i);
     }
-    if (nearest < given_.size())
+  }
+  std::sort(pairs.begin(), pairs.end());
+  std::set<Index> done;
+  std::vector<std::uint8_t> isTaken(given_.size(), 0);
+  for (const auto& [distance, h, i] : pairs)
+  {
+    if (isTaken[i] == 0 && done.insert(h).second)
     {
-      isTaken[nearest] = 1;
-      given_[nearest] = { h, 0 };
+      isTaken[i] = 1;
+      given_[i] = { h, 0 };
     }
   }
 }

@@ -62,6 +62,7 @@ private:
   FaceCurve trace(CurveStep first, std::vector<std::uint8_t>& isDone) const;
   std::optional<CurveStep> stepAfter(const CurveStep& step) const;
   bool isNode(Index v) const;
+  std::vector<Index> endsOnGiven() const;
   void findGroups();
 
   const Mesh& mesh_;

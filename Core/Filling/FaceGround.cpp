@@ -14,8 +14,8 @@ namespace quadrille
 namespace
 {
 
-/// Pins closer together than this share of the edge length make the quads near them smaller.
-constexpr double kFineSpacing = 0.8;
+/// Pins closer together than this share of the edge length make the quads near them smaller, by this factor at most.
+constexpr double kFineSpacing = 0.8, kSmallest = 0.05;
 /// By how much sizes grow with the distance from such pins.
 constexpr double kGrowthFromPins = 0.4;
 
@@ -106,9 +106,12 @@ void FaceGround::measureAngles()
       continue;
     }
     const Index v = nextPin_[u];
+    const Vector3& normal = normals_[v];
     const Vector3 back = face_.position[u] - face_.position[v];
     const Vector3 on = face_.position[nextPin_[v]] - face_.position[v];
-    double angle = std::atan2(normals_[v].dot(on.cross(back)), on.dot(back));
+    // In the tangent plane: lines between pins may leave it steeply.
+    double angle =
+      std::atan2(normal.dot(on.cross(back)), on.dot(back) - normal.dot(on) * normal.dot(back));
     // Of a cusp, the turn that the face has there.
     if (std::abs(angle + 2 * kPi - sums[v]) < std::abs(angle - sums[v]))
     {
@@ -134,7 +137,7 @@ void FaceGround::collectFinePins()
   {
     if (isPin(v) && spacing[v] < kFineSpacing * sizeAt(face_, v))
     {
-      finePins_.emplace_back(face_.position[v], spacing[v]);
+      finePins_.emplace_back(face_.position[v], std::max(spacing[v], kSmallest * sizeAt(face_, v)));
     }
   }
 }
@@ -148,9 +151,14 @@ double FaceGround::sizeNear(const Vector3& p, double size) const
   return size;
 }
 
-std::optional<FaceGround::Spot> FaceGround::at(const Vector3& p, const Vector3& facing) const
+std::optional<FaceGround::Spot> FaceGround::at(
+  const Vector3& p, const Vector3& facing, const Vector3& near) const
 {
-  const auto place = nearest_.at(p, facing);
+  auto place = nearest_.at(p, facing, 1.1 * (p - near).norm());
+  if (!place)
+  {
+    place = nearest_.at(p, facing);
+  }
   if (!place)
   {
     return std::nullopt;

@@ -19,7 +19,7 @@ namespace
 {
 
 /// Rounds after which triangulations of faces hardly change.
-constexpr int kRounds = 10;
+constexpr int kRemeshingRounds = 10;
 /// After this round only pins are left of the boundary.
 constexpr int kRoundOfPins = 2;
 /// Of two triangles that make a square quad of edge length 1.
@@ -27,7 +27,9 @@ constexpr double kTriangleEdge = 1.0746;
 /// Edges between these shares of the wanted length stay [Botsch and Kobbelt 2004].
 constexpr double kShort = 4.0 / 5, kLong = 4.0 / 3;
 /// A change may make triangles worse than they are down to this shape only (see triangleShape).
-constexpr double kSoundShape = 0.4;
+constexpr double kSoundTriangle = 0.4;
+/// Moves shorter than this share of the wanted length are not worth a search for the place below.
+constexpr double kLeastMove = 0.02;
 
 class FaceRemeshing
 {
@@ -53,7 +55,7 @@ public:
 
   FaceTriangles run()
   {
-    for (int round = 0; round < kRounds; ++round)
+    for (int round = 0; round < kRemeshingRounds; ++round)
     {
       collapseEdges();
       flipEdges();
@@ -66,7 +68,7 @@ public:
       relax();
     }
     collapseEdges();
-    for (int round = 0; round < kRounds; ++round)
+    for (int round = 0; round < kRemeshingRounds; ++round)
     {
       flipEdges();
       relax();
@@ -79,10 +81,12 @@ private:
   bool isRemoved(Index h) const { return mesh().origin[h] == kInvalidIndex; }
   bool isInner(Index v) const { return onBoundary_[v] == 0; }
   /// Over the wanted length.
-  double lengthOf(Index h) const
+  double lengthBetween(Index a, Index b) const
   {
-    return sizedLength(mesh(), h) / (kTriangleEdge * ground_.edgeLength());
+    return (mesh().position[a] - mesh().position[b]).norm() /
+      (std::sqrt(sizeAt(mesh(), a) * sizeAt(mesh(), b)) * kTriangleEdge * ground_.edgeLength());
   }
+  double lengthOf(Index h) const { return lengthBetween(mesh().origin[h], mesh().target(h)); }
 
   double shapeOf(Index a, Index b, Index c) const
   {
@@ -104,25 +108,44 @@ private:
 
   static bool isBetter(double after, double before)
   {
-    return after >= std::min(kSoundShape, before);
+    return after >= std::min(kSoundTriangle, before);
   }
 
   /// May the origin of h go for good, for the sake of where it stands?
-  bool isSpare(Index h) const
+  bool isSpare(Index h, const std::vector<std::uint8_t>& isTurnedOver) const
   {
     const Index v = mesh().origin[h];
-    return isInner(v) ? lengthOf(h) < kShort : !ground_.isPin(v) && mesh().isBoundary(h);
+    return isInner(v) ? lengthOf(h) < kShort || isTurnedOver[v] != 0
+                      : !ground_.isPin(v) && mesh().isBoundary(h);
+  }
+
+  /// Per vertex: is a face there turned over?
+  std::vector<std::uint8_t> findTurnedOver() const
+  {
+    std::vector<std::uint8_t> result(mesh().vertexCount(), 0);
+    for (Index f = 0; f < mesh().faceCount(); ++f)
+    {
+      if (!isRemoved(3 * f) && shapeOfFace(f) < 0)
+      {
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        {
+          result[mesh().origin[h]] = 1;
+        }
+      }
+    }
+    return result;
   }
 
   void collapseEdges()
   {
     bool any = true;
-    for (int pass = 0; any && pass < kRounds; ++pass)
+    for (int pass = 0; any && pass < kRemeshingRounds; ++pass)
     {
+      const std::vector<std::uint8_t> isTurnedOver = findTurnedOver();
       std::vector<std::pair<double, Index>> spare;
       for (Index h = 0; h < mesh().halfEdgeCount(); ++h)
       {
-        if (!isRemoved(h) && isSpare(h))
+        if (!isRemoved(h) && isSpare(h, isTurnedOver))
         {
           spare.emplace_back(lengthOf(h), h);
         }
@@ -131,7 +154,8 @@ private:
       any = false;
       for (const auto& [length, h] : spare)
       {
-        if (!isRemoved(h) && isSpare(h) && isSoundCollapse(h) && mayCollapse(mesh(), h))
+        if (!isRemoved(h) && isSpare(h, isTurnedOver) &&
+          isSoundCollapse(h, isTurnedOver[mesh().origin[h]] != 0) && mayCollapse(mesh(), h))
         {
           collapseEdge(result_.surface, h);
           any = true;
@@ -140,29 +164,26 @@ private:
     }
   }
 
-  /// Neither long edges nor bad triangles; but where triangles are bad as they are, long edges are the lesser evil.
-  bool isSoundCollapse(Index h) const
+  /// Neither long edges nor bad triangles; but at turned over ones, long edges are the lesser evil.
+  bool isSoundCollapse(Index h, bool isTurnedOver) const
   {
     const Index v = mesh().origin[h], u = mesh().target(h);
-    double before = 1, after = 1, longest = 0;
+    double longest = 0;
+    forEachInFan(
+      mesh(), h, [&](Index g) { longest = std::max(longest, lengthBetween(u, mesh().target(g))); });
+    if (longest > kLong && isInner(v) && !isTurnedOver)
+    {
+      return false;
+    }
+    double before = 1, after = 1;
     forEachInFan(mesh(), h,
       [&](Index g)
       {
         const Index a = mesh().target(g), b = mesh().origin[Mesh::previous(g)];
         before = std::min(before, shapeOf(v, a, b));
-        if (a != u && b != u)
-        {
-          after = std::min(after, shapeOf(u, a, b));
-          longest = std::max({ longest, lengthBetween(u, a), lengthBetween(u, b) });
-        }
+        after = a == u || b == u ? after : std::min(after, shapeOf(u, a, b));
       });
-    return isBetter(after, before) && (longest < kLong || before <= 0 || !isInner(v));
-  }
-
-  double lengthBetween(Index a, Index b) const
-  {
-    return (mesh().position[a] - mesh().position[b]).norm() /
-      (std::sqrt(sizeAt(mesh(), a) * sizeAt(mesh(), b)) * kTriangleEdge * ground_.edgeLength());
+    return before < 0 ? after > before : isBetter(after, before);
   }
 
   /// Whatever becomes of the shapes. What can be in the way of a collapse along the boundary is only a vertex that
@@ -266,7 +287,7 @@ private:
       excess[v] -= wantedValence(v);
     }
     bool any = true;
-    for (int pass = 0; any && pass < kRounds; ++pass)
+    for (int pass = 0; any && pass < kRemeshingRounds; ++pass)
     {
       any = false;
       for (Index h = 0; h < mesh().halfEdgeCount(); ++h)
@@ -295,13 +316,13 @@ private:
                 d = mesh().origin[Mesh::previous(mesh().twin[h])];
     const double before = std::min(shapeOf(a, b, c), shapeOf(b, a, d));
     const double after = std::min(shapeOf(a, d, c), shapeOf(b, c, d));
-    if (before < kSoundShape && after < kSoundShape)
+    if (before < kSoundTriangle && after < kSoundTriangle)
     {
       return after > before + 1e-6; // else two flips could take turns
     }
     // Squares of excess - 1 and excess + 1 over those of excess.
     const double gain = 2 * (excess[a] + excess[b] - excess[c] - excess[d]) - 4;
-    return after >= kSoundShape && (before < kSoundShape || gain > 1e-6);
+    return after >= kSoundTriangle && (before < kSoundTriangle || gain > 1e-6);
   }
 
   void relax()
@@ -335,11 +356,15 @@ private:
         sum += mesh().position[mesh().target(g)];
         ++count;
       });
-    const double before = worstShapeAt(h);
     const Vector3 place = mesh().position[v], normal = result_.normals[v];
+    if ((sum / count - place).norm() < kLeastMove * ground_.edgeLength() * sizeAt(mesh(), v))
+    {
+      return;
+    }
+    const double before = worstShapeAt(h);
     for (const double share : { 1.0, 0.5 })
     {
-      const auto spot = ground_.at(place + share * (sum / count - place), normal);
+      const auto spot = ground_.at(place + share * (sum / count - place), normal, place);
       if (!spot)
       {
         continue;

@@ -15,12 +15,13 @@ namespace quadrille
 namespace
 {
 
-/// Moves may make quads worse than they are down to this shape only.
-constexpr double kSoundShape = 0.6;
-/// Points with a quad of a shape below this look for a better place than the mean of their neighbours.
-constexpr double kBadShape = 0.4;
+/// Moves may make quads worse than they are down to this shape only; points with a worse one look for a better place
+/// than the mean of their neighbours.
+constexpr double kSoundQuad = 0.6;
+/// Moves shorter than this share of the edges are not worth a search for the place below.
+constexpr double kLeastMove = 0.02;
 /// So many directions, and steps as shares of the mean length of their edges.
-constexpr int kDirections = 8;
+constexpr int kSearchDirections = 8;
 constexpr std::array<double, 3> kSteps{ 0.4, 0.15, 0.05 };
 
 class QuadRelaxation
@@ -47,7 +48,7 @@ public:
         continue;
       }
       moveToMean(v);
-      if (worstShapeAt(v) < kBadShape)
+      if (worstShapeAt(v) < kSoundQuad)
       {
         moveToBest(v);
       }
@@ -90,7 +91,7 @@ private:
   /// Whether the worst shape at the point is at least so good there; if not, it stays.
   bool tryMove(Index v, const Vector3& to, double least)
   {
-    const auto spot = ground_.at(to, mesh_.normals[v]);
+    const auto spot = ground_.at(to, mesh_.normals[v], mesh_.points[v]);
     if (!spot)
     {
       return false;
@@ -109,8 +110,12 @@ private:
 
   void moveToMean(Index v)
   {
-    const double least = std::min(kSoundShape, worstShapeAt(v));
     const Vector3 place = mesh_.points[v], mean = meanOfNeighbours(v);
+    if ((mean - place).norm() < kLeastMove * meanEdge(v))
+    {
+      return;
+    }
+    const double least = std::min(kSoundQuad, worstShapeAt(v));
     if (!tryMove(v, mean, least))
     {
       tryMove(v, (place + mean) / 2, least);
@@ -124,9 +129,9 @@ private:
     {
       const Vector3 place = mesh_.points[v];
       const Vector3 u = mesh_.normals[v].unitOrthogonal(), w = mesh_.normals[v].cross(u);
-      for (int i = 0; i < kDirections; ++i)
+      for (int i = 0; i < kSearchDirections; ++i)
       {
-        const double angle = 2 * kPi * i / kDirections;
+        const double angle = 2 * kPi * i / kSearchDirections;
         tryMove(v, place + step * edge * (std::cos(angle) * u + std::sin(angle) * w),
           worstShapeAt(v) + 1e-6);
       }

@@ -235,7 +235,7 @@ void failEmbedding(const Mesh& mesh, StatusCode code, const std::string& message
 {
   result.status = { code, "embedding: " + message };
   result.failedAt = verticesOf(mesh, cause);
-  result.failedFaces = facesOf(mesh, cause);
+  result.failedFaces = failedFacesOf(mesh, cause);
   result.inverted = findNotPositive(mesh, result.uv);
 }
 

@@ -37,7 +37,7 @@ struct EmbedResult
   std::vector<Index> inverted; ///< faces left with !(det > 0)
   std::vector<Index>
     failedAt; ///< vertices round which the triangulation leaves no map with these integers
-  std::vector<Index> failedFaces; ///< faces of these defects, ascending
+  FailedFaces failedFaces; ///< where these defects are
   int newtonSteps = 0;
   bool startedFromPrevious = false;
 };

@@ -11,6 +11,7 @@
 #include "Base/Progress.h"
 #include "CrossField/CrossField.h"
 #include "GridMap/Certificate.h"
+#include "GridMap/MapCheck.h"
 #include "GridMap/PreviousMap.h"
 #include "Integers/CurveIsolines.h"
 #include "Mesh/Mesh.h"
@@ -104,7 +105,7 @@ struct GridMapResult : MapWork
   MapReuse reuse;
   Status status;               ///< not ok: why and where; uv then holds the best that was reached
   std::vector<Index> failedAt; ///< coarse vertices around which the triangulation lacks freedom
-  std::vector<Index> failedFaces; ///< coarse faces of these defects, ascending; empty where it was none of faces
+  FailedFaces failedFaces; ///< coarse faces where that was; empty where it was not in faces
   std::vector<Index>
     failedIn; ///< a coarse vertex of each component that has no map, however it is tried
   /// Faces that no map with the field gives any area, as the arcs of features round patches leave none; not from the

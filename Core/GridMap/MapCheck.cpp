@@ -161,23 +161,27 @@ std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& fa
   return vertices;
 }
 
-std::vector<Index> facesOf(const Mesh& mesh, const MapDefects& defects)
+FailedFaces failedFacesOf(const Mesh& mesh, const MapDefects& defects)
 {
-  std::vector<Index> result = defects.notPositive;
-  std::transform(defects.reversed.begin(), defects.reversed.end(), std::back_inserter(result),
-    [](Index h) { return Mesh::face(h); });
-  if (result.empty())
+  FailedFaces failed;
+  failed.faces = defects.notPositive;
+  for (const Index h : defects.reversed)
   {
-    result = idsWhere(mesh.faceCount(),
+    const Index face = Mesh::face(h);
+    failed.either.push_back({ face, mesh.isBoundary(h) ? face : Mesh::face(mesh.twin[h]) });
+  }
+  if (failed.empty())
+  {
+    failed.faces = idsWhere(mesh.faceCount(),
       [&](Index f)
       {
         const Index* corner = &mesh.origin[3 * f];
-        return std::any_of(corner, corner + 3,
-          [&](Index v) { return contains(defects.wrongTurns, v); });
+        return std::any_of(
+          corner, corner + 3, [&](Index v) { return contains(defects.wrongTurns, v); });
       });
   }
-  sortUnique(result);
-  return result;
+  sortUnique(failed.faces);
+  return failed;
 }
 
 std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects)

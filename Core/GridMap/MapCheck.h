@@ -77,8 +77,18 @@ std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field);
 /// The corners of the faces, ascending.
 std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& faces);
 
-/// The faces of all defects but turns, ascending; where there are none, those round vertices with wrong turns.
-std::vector<Index> facesOf(const Mesh& mesh, const MapDefects& defects);
+/// Where a map has failed, by faces.
+struct FailedFaces
+{
+  std::vector<Index> faces; ///< ascending
+  /// A constrained edge that is reversed in the map concerns the faces on both sides: without the one, or the other, it
+  /// could be where it is. Twice the same on a boundary.
+  std::vector<std::array<Index, 2>> either;
+
+  bool empty() const { return faces.empty() && either.empty(); }
+};
+/// Where there are no other defects, faces round vertices with wrong turns.
+FailedFaces failedFacesOf(const Mesh& mesh, const MapDefects& defects);
 
 /// The vertices of all defects, ascending.
 std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects);

@@ -81,12 +81,12 @@ struct Component
   bool seamlessReused = false, integersReused = false, embedReused = false;
   Status status;
   std::vector<Index> failedAt;    ///< vertices of the part
-  std::vector<Index> failedFaces; ///< of the part
+  FailedFaces failedFaces;     ///< of the part
 
   const CarriedMap* earlier() const { return previous.knownFaces > 0 ? &previous : nullptr; }
 
   void fail(const Status& why, std::vector<FixedVec2> best, std::vector<Index> where,
-    std::vector<Index> faces = {})
+    FailedFaces faces = {})
   {
     status = why;
     uv = std::move(best);
@@ -541,9 +541,14 @@ private:
       {
         result_.failedAt.push_back(component.part.vertex[v]);
       }
-      for (const Index f : component.failedFaces)
+      for (const Index f : component.failedFaces.faces)
       {
-        result_.failedFaces.push_back(component.part.face[f]);
+        result_.failedFaces.faces.push_back(component.part.face[f]);
+      }
+      for (const auto& [one, other] : component.failedFaces.either)
+      {
+        result_.failedFaces.either.push_back(
+          { component.part.face[one], component.part.face[other] });
       }
       if (component.status.ok())
       {
@@ -560,7 +565,7 @@ private:
       }
     }
     std::sort(result_.failedAt.begin(), result_.failedAt.end());
-    std::sort(result_.failedFaces.begin(), result_.failedFaces.end());
+    std::sort(result_.failedFaces.faces.begin(), result_.failedFaces.faces.end());
     result_.certificate =
       certify(mesh_, result_.uv, result_.field.turns, integerVertices(mesh_, result_.field));
     if (result_.status.ok() && !hasPromised(result_.certificate, options_.method))

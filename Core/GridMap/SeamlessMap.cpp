@@ -27,7 +27,7 @@ void failSeamless(const Mesh& mesh, StatusCode code, const std::string& message,
   result.inverted = defects.notPositive;
   if (result.failedFaces.empty())
   {
-    result.failedFaces = facesOf(mesh, defects);
+    result.failedFaces = failedFacesOf(mesh, defects);
   }
   if (result.failedAt.empty())
   {
@@ -55,7 +55,7 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
     return false;
   }
   result.failedAt = verticesOf(mesh, collapsed);
-  result.failedFaces = facesOf(mesh, collapsed);
+  result.failedFaces = failedFacesOf(mesh, collapsed);
   failSeamless(mesh, StatusCode::Infeasible,
     "features and irregular vertices leave no area to " +
       std::to_string(collapsed.notPositive.size()) + " triangles",
@@ -115,7 +115,7 @@ void explain(
     MapDefects ends = defects;
     ends.reversed.insert(ends.reversed.end(), chords.begin(), chords.end());
     result.failedAt = verticesOf(mesh, ends);
-    result.failedFaces = facesOf(mesh, ends);
+    result.failedFaces = failedFacesOf(mesh, ends);
     cause = "; " + std::to_string(chords.size()) +
       " edges are chords of straight features, with no vertex between them";
   }

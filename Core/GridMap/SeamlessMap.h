@@ -36,7 +36,7 @@ struct SeamlessResult
   std::vector<Index> inverted; ///< faces left with !(det > 0)
   std::vector<Index>
     failedAt; ///< vertices round which the triangulation, or the field, leaves no map
-  std::vector<Index> failedFaces; ///< faces of these defects, ascending
+  FailedFaces failedFaces; ///< where these defects are
   /// Of these faces, that no map with this field gives any area: then they are those of the start, as nothing was
   /// untangled.
   std::size_t collapsed = 0;

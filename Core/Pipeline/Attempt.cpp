@@ -142,11 +142,19 @@ void recordCoarse(
     made.collapsed = map.collapsedFaces > 0;
     made.failedPlaces = positionsOf(levels.coarse.mesh, map.failedAt);
     made.failedAt = onFinest(map.failedAt, levels.coarse);
-    for (const Index f : map.failedFaces)
+    const std::vector<Index>& fineFace = levels.coarse.fineFace;
+    for (const Index f : map.failedFaces.faces)
     {
-      if (f < levels.coarse.fineFace.size()) // others are of the outset
+      if (f < fineFace.size()) // others are of the outset
       {
-        made.failedFaces.push_back(levels.coarse.fineFace[f]);
+        made.failedFaces.faces.push_back(fineFace[f]);
+      }
+    }
+    for (const auto& [one, other] : map.failedFaces.either)
+    {
+      if (std::max(one, other) < fineFace.size())
+      {
+        made.failedFaces.either.push_back({ fineFace[one], fineFace[other] });
       }
     }
     made.failedIn = onFinest(map.failedIn.empty() ? map.failedAt : map.failedIn, levels.coarse);

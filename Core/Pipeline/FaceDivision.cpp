@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -38,6 +39,32 @@ constexpr std::size_t kMostStrips = 100;
 std::vector<Index> faceLabels(const Mesh& mesh)
 {
   return FaceCurves(mesh, std::vector<std::uint8_t>(mesh.halfEdgeCount(), 0), 1).faceOf();
+}
+
+/// Of the two faces at an edge the one with less area.
+std::vector<std::uint8_t> failedLabels(
+  const Mesh& mesh, const std::vector<Index>& labels, const FailedFaces& failed)
+{
+  const std::size_t count = std::size_t{ *std::max_element(labels.begin(), labels.end()) } + 1;
+  std::vector<double> area(count, 0);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    area[labels[f]] += sizedArea(mesh, f);
+  }
+  std::vector<std::uint8_t> isFailed(count, 0);
+  for (const Index f : failed.faces)
+  {
+    isFailed[labels[f]] = 1;
+  }
+  for (const auto& [one, other] : failed.either)
+  {
+    const Index a = labels[one], b = labels[other];
+    if (isFailed[a] == 0 && isFailed[b] == 0)
+    {
+      isFailed[area[a] < area[b] ? a : b] = 1;
+    }
+  }
+  return isFailed;
 }
 
 /// A segment tree of the boundary that is shared.
@@ -60,19 +87,28 @@ public:
     segments_.emplace(std::move(list));
   }
 
-  std::optional<CurvePoint> at(const Vector3& place, double within) const
+  /// Where a point on it lies, between its neighbours on the boundary of the quads beside. Where the boundary meets
+  /// itself, the neighbours tell which of the vertices at that place it is.
+  std::optional<CurvePoint> at(
+    const Vector3& place, const std::array<Vector3, 2>& neighbours, double within) const
   {
-    const auto found = segments_->at(place, Vector3::Zero(), within);
-    if (!found)
+    constexpr double towards = 1e-3;
+    if (!segments_->at(place, Vector3::Zero(), within))
     {
       return std::nullopt;
     }
+    std::optional<NearestTriangle::Place> nearest;
+    for (const Vector3& other : neighbours)
+    {
+      const auto found = segments_->at(place + towards * (other - place));
+      nearest = !nearest || found->distance < nearest->distance ? found : nearest;
+    }
     constexpr double rounding = 1e-9;
-    const double t = found->weights[1];
-    return CurvePoint{ halfEdges_[found->triangle],
-      t < rounding       ? 0
+    const double t = segments_->on(nearest->triangle, place).weights[1];
+    return CurvePoint{ halfEdges_[nearest->triangle],
+      t < rounding         ? 0
         : 1 - t < rounding ? 1
-                         : t };
+                           : t };
   }
 
 private:
@@ -180,13 +216,22 @@ private:
       return;
     }
     const QuadTopology topology = analyzeQuads(restQuads_->quads, restQuads_->points.size());
-    for (Index p = 0; p < restQuads_->points.size(); ++p)
+    std::map<Index, std::array<Index, 2>> neighbours; // behind and before
+    for (Index h = 0; h < topology.twin.size(); ++h)
     {
-      if (topology.onBoundary[p] == 0)
+      if (topology.twin[h] == kInvalidIndex)
       {
-        continue;
+        const Index a = restQuads_->quads[h / 4][h % 4], b = restQuads_->quads[h / 4][nextInQuad(h) % 4];
+        neighbours[a][1] = b;
+        neighbours[b][0] = a;
       }
-      if (const auto place = boundary_->at(restQuads_->points[p], kSamePlace * edgeLength_))
+    }
+    const std::vector<Vector3>& points = restQuads_->points;
+    for (const auto& [p, beside] : neighbours)
+    {
+      const auto place = boundary_->at(
+        points[p], { points[beside[0]], points[beside[1]] }, kSamePlace * edgeLength_);
+      if (place)
       {
         points_.push_back(p);
         places_.push_back(*place);
@@ -279,6 +324,33 @@ bool hasFailedInFaces(
   return std::any_of(labels.begin(), labels.end(), [](Index label) { return label > 0; });
 }
 
+std::vector<Vector3> gapsIn(const QuadMesh& quads)
+{
+  const QuadTopology topology = analyzeQuads(quads.quads, quads.points.size());
+  std::set<std::pair<Index, Index>> boundary;
+  for (const QuadLine& line : quads.lines)
+  {
+    if (line.boundary)
+    {
+      boundary.insert(std::minmax(line.a, line.b));
+    }
+  }
+  std::vector<Index> points = topology.defectPoints;
+  for (Index h = 0; h < topology.twin.size(); ++h)
+  {
+    const Index a = quads.quads[h / 4][h % 4], b = quads.quads[h / 4][nextInQuad(h) % 4];
+    if (topology.twin[h] == kInvalidIndex && boundary.count(std::minmax(a, b)) == 0)
+    {
+      points.push_back(a);
+    }
+  }
+  sortUnique(points);
+  std::vector<Vector3> places;
+  std::transform(points.begin(), points.end(), std::back_inserter(places),
+    [&](Index p) { return quads.points[p]; });
+  return places;
+}
+
 std::string filledText(const CutFaces& cut, std::size_t quads)
 {
   std::ostringstream text;
@@ -294,11 +366,8 @@ std::string filledText(const CutFaces& cut, std::size_t quads)
 CutFaces cutFailedFaces(const SizedSurface& whole, const MapAttempt& failed, int threads)
 {
   const std::vector<Index> labels = faceLabels(whole.surface->mesh);
-  std::vector<std::uint8_t> isFailed(*std::max_element(labels.begin(), labels.end()) + 1, 0);
-  for (const Index f : failed.failedFaces)
-  {
-    isFailed[labels[f]] = 1;
-  }
+  const std::vector<std::uint8_t> isFailed =
+    failedLabels(whole.surface->mesh, labels, failed.failedFaces);
   CutFaces cut;
   cut.count = static_cast<std::size_t>(std::count(isFailed.begin(), isFailed.end(), std::uint8_t{ 1 }));
   PreparedSurface opened = *whole.surface;

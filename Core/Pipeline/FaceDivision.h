@@ -40,6 +40,9 @@ struct FilledPart
   std::vector<Index> points; ///< which of the rest's these are
   std::vector<Vector3> failedAt; ///< why there are none
 };
+/// Where quads of faces and of the rest do not meet; empty where all is well.
+std::vector<Vector3> gapsIn(const QuadMesh& quads);
+
 /// What to tell of them.
 std::string filledText(const CutFaces& cut, std::size_t quads);
 

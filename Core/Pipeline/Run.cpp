@@ -320,6 +320,12 @@ bool remeshBesideFaces(const History& history, Settled& settled, SizedSurface& s
   joined.addFilled(cut, std::move(filled));
   takeBefore(history, settled, sized, result);
   sized.surface = std::make_shared<const PreparedSurface>(joined.take(result, options.threads));
+  if (const std::vector<Vector3> gaps = gapsIn(result.quads); !gaps.empty())
+  {
+    failure = { history.last().map->status, gaps };
+    result.quads = {};
+    return false;
+  }
   SmoothingOptions smoothing;
   smoothing.steps = options.smoothingSteps;
   smoothing.threads = options.threads;
