@@ -426,6 +426,21 @@ bool mayFlip(const Mesh& mesh, Index h)
     std::find(neighbours.begin(), neighbours.end(), d) == neighbours.end();
 }
 
+void flipEdge(Mesh& mesh, Index h)
+{
+  // before: h a->b, n b->c, p c->a; g b->a, ng a->d, pg d->b. after: h a->d, n d->c, p c->a; g b->c, ng c->d, pg d->b.
+  const Index g = mesh.twin[h];
+  const Index n = Mesh::next(h), p = Mesh::previous(h);
+  const Index ng = Mesh::next(g), pg = Mesh::previous(g);
+  const std::uint8_t inner = mesh.flags[h];
+  moveEdge(mesh, ng, h); // a -> d
+  moveEdge(mesh, n, g);  // b -> c
+  joinInner(mesh, n, ng);
+  mesh.flags.edit()[n] = mesh.flags.edit()[ng] = inner;
+  mesh.origin.edit()[n] = mesh.origin[pg]; // d -> c
+  mesh.origin.edit()[ng] = mesh.origin[p]; // c -> d
+}
+
 void flipSliver(PreparedSurface& surface, Index h)
 {
   // before: h a->b, n b->c, p c->a; g b->a, ng a->d, pg d->b. after: (a, d, c) and (b, c, d).
@@ -461,7 +476,6 @@ void flipSliver(PreparedSurface& surface, Index h)
 
 void flipFlat(PreparedSurface& surface, Index h, Index level)
 {
-  // before: h a->b, n b->c, p c->a; g b->a, ng a->d, pg d->b. after: h a->d, n d->c, p c->a; g b->c, ng c->d, pg d->b.
   Mesh& mesh = surface.mesh;
   const Index g = mesh.twin[h];
   const Index n = Mesh::next(h), p = Mesh::previous(h);
@@ -491,13 +505,7 @@ void flipFlat(PreparedSurface& surface, Index h, Index level)
   flipped[surface.refinedEntry[Mesh::face(h)]] = made[0];
   flipped[surface.refinedEntry[Mesh::face(g)]] = made[1];
 
-  const std::uint8_t inner = mesh.flags[h];
-  moveEdge(mesh, ng, h); // a -> d
-  moveEdge(mesh, n, g);  // b -> c
-  joinInner(mesh, n, ng);
-  mesh.flags.edit()[n] = mesh.flags.edit()[ng] = inner;
-  mesh.origin.edit()[n] = mesh.origin[pg]; // d -> c
-  mesh.origin.edit()[ng] = mesh.origin[p]; // c -> d
+  flipEdge(mesh, h);
 }
 
 } // namespace quadrille

@@ -45,14 +45,17 @@ void collapseEdge(PreparedSurface& surface, Index h);
 /// True when h has two faces and its two opposite vertices are not joined yet.
 bool mayFlip(const Mesh& mesh, Index h);
 
+/// Flips the edge of h, which mayFlip, to the opposite vertices. The faces keep their slots, h and its twin begin where
+/// they did, and a flag of the edge stays on it.
+void flipEdge(Mesh& mesh, Index h);
+
 /// Flips the edge of h, whose face is a sliver on it, to the opposite vertices; both faces are parts of
 /// the twin's polygon then, and a feature on the edge goes to the sliver's other two edges. Not for
 /// faces with weights.
 void flipSliver(PreparedSurface& surface, Index h);
 
-/// Flips the edge of h, whose two faces are flat together, for the flips of this level of the surface
-/// (PreparedSurface::flipped). The faces keep their slots, h and its twin begin where they did; their sources are those
-/// of before until FlatFlips tells them.
+/// flipEdge of an edge whose two faces are flat together, for the flips of this level of the surface
+/// (PreparedSurface::flipped). The sources of the faces are those of before until FlatFlips tells them.
 void flipFlat(PreparedSurface& surface, Index h, Index level);
 
 } // namespace quadrille

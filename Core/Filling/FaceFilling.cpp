@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filling/FaceFilling.h"
+
+#include "Base/Angles.h"
+#include "Base/Lists.h"
+#include "Filling/FaceGround.h"
+#include "Filling/FaceTriangulation.h"
+#include "Filling/QuadCleanUp.h"
+#include "Filling/TrianglePairing.h"
+#include "Mesh/Topology.h"
+#include "Quads/QuadTopology.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+bool canBeFilled(
+  const TopologySummary& topology, const std::vector<std::uint8_t>& isPin, const FaceGround& ground)
+{
+  const std::vector<std::size_t>& pins = ground.pinsOfLoops();
+  const std::size_t sum = std::accumulate(pins.begin(), pins.end(), std::size_t{ 0 });
+  const bool hasArea = std::any_of(ground.normals().begin(), ground.normals().end(),
+    [](const Vector3& normal) { return !normal.isZero(); });
+  const auto asked = std::count(isPin.begin(), isPin.end(), 1);
+  return topology.components == 1 && hasArea && static_cast<std::size_t>(asked) == sum &&
+    sum >= 4 && sum % 2 == 0 &&
+    std::all_of(pins.begin(), pins.end(), [](std::size_t count) { return count >= 3; });
+}
+
+std::array<Index, 4> quadOfPins(const FaceGround& ground, Index pin)
+{
+  std::array<Index, 4> quad{};
+  for (Index& corner : quad)
+  {
+    corner = pin;
+    pin = ground.nextPin(pin);
+  }
+  return quad;
+}
+
+/// The quads with their own points; ids: of pins, first.
+FaceQuads ownPoints(const FaceGround& ground, const FaceTriangles& triangles,
+  const std::vector<std::array<Index, 4>>& quads, const std::vector<Index>& pins)
+{
+  const Mesh& mesh = triangles.surface.mesh;
+  std::vector<Index> own(mesh.vertexCount(), kInvalidIndex);
+  FaceQuads result;
+  result.pinCount = static_cast<Index>(pins.size());
+  const auto add = [&](Index v)
+  {
+    if (own[v] == kInvalidIndex)
+    {
+      own[v] = static_cast<Index>(result.points.size());
+      result.points.push_back(mesh.position[v]);
+      result.normals.push_back(triangles.normals[v]);
+      result.fitting.push_back(ground.angleAt(v) / kRightAngle);
+    }
+    return own[v];
+  };
+  std::for_each(pins.begin(), pins.end(), add);
+  for (const std::array<Index, 4>& quad : quads)
+  {
+    result.quads.push_back({ add(quad[0]), add(quad[1]), add(quad[2]), add(quad[3]) });
+  }
+  return result;
+}
+
+/// Is the boundary the one of the pins, and all else like the face?
+bool fillsFace(const FaceQuads& quads, const std::vector<Index>& pins, const FaceGround& ground,
+  long long eulerCharacteristic)
+{
+  const QuadTopology topology = analyzeQuads(quads.quads, quads.points.size());
+  if (!topology.manifold() || topology.eulerCharacteristic != eulerCharacteristic ||
+    topology.components != 1)
+  {
+    return false;
+  }
+  std::size_t count = 0;
+  for (Index h = 0; h < topology.twin.size(); ++h)
+  {
+    if (topology.twin[h] == kInvalidIndex)
+    {
+      const Index from = quads.quads[h / 4][h % 4], to = quads.quads[h / 4][(h + 1) % 4];
+      if (from >= pins.size() || to >= pins.size() || ground.nextPin(pins[from]) != pins[to])
+      {
+        return false;
+      }
+      ++count;
+    }
+  }
+  return count == pins.size();
+}
+
+/// Points that are in no quad any more go.
+void dropUnused(FaceQuads& mesh)
+{
+  std::vector<Index> now(mesh.points.size(), kInvalidIndex);
+  Index count = mesh.pinCount;
+  std::iota(now.begin(), now.begin() + count, 0);
+  for (std::array<Index, 4>& quad : mesh.quads)
+  {
+    for (Index& v : quad)
+    {
+      if (now[v] == kInvalidIndex)
+      {
+        now[v] = count++;
+      }
+      v = now[v];
+    }
+  }
+  FaceQuads kept = mesh;
+  for (Index v = 0; v < now.size(); ++v)
+  {
+    if (now[v] != kInvalidIndex)
+    {
+      kept.points[now[v]] = mesh.points[v];
+      kept.normals[now[v]] = mesh.normals[v];
+      kept.fitting[now[v]] = mesh.fitting[v];
+    }
+  }
+  kept.points.resize(count);
+  kept.normals.resize(count);
+  kept.fitting.resize(count);
+  mesh = std::move(kept);
+}
+
+FaceFill toFill(const FaceQuads& quads, const std::vector<Index>& pins, Index vertexCount,
+  const FaceGround& ground)
+{
+  FaceFill fill;
+  for (Index v = quads.pinCount; v < quads.points.size(); ++v)
+  {
+    const auto facing = ground.at(quads.points[v], quads.normals[v]);
+    const FaceGround::Spot spot = facing ? *facing : *ground.at(quads.points[v], Vector3::Zero());
+    fill.points.push_back(spot.point);
+    fill.sourceFace.push_back(spot.face);
+    fill.sourceWeights.push_back(spot.weights);
+  }
+  for (std::array<Index, 4> quad : quads.quads)
+  {
+    for (Index& v : quad)
+    {
+      v = v < quads.pinCount ? pins[v] : vertexCount + v - quads.pinCount;
+    }
+    fill.quads.push_back(quad);
+  }
+  return fill;
+}
+
+} // namespace
+
+std::optional<FaceFill> fillFace(
+  const Mesh& face, const std::vector<std::uint8_t>& isPin, double edgeLength)
+{
+  const FaceGround ground(face, isPin, edgeLength);
+  const TopologySummary topology = summarizeTopology(face);
+  if (!canBeFilled(topology, isPin, ground))
+  {
+    return std::nullopt;
+  }
+  const std::vector<Index> pins =
+    idsWhere(face.vertexCount(), [&](Index v) { return ground.isPin(v); });
+  if (topology.eulerCharacteristic == 1 && pins.size() == 4)
+  {
+    return FaceFill{ {}, {}, {}, { quadOfPins(ground, pins[0]) } };
+  }
+  FaceTriangles triangles = triangulateFace(face, ground);
+  FaceQuads quads = ownPoints(ground, triangles, pairTriangles(triangles), pins);
+  cleanUpQuads(quads, ground);
+  dropUnused(quads);
+  if (!fillsFace(quads, pins, ground, topology.eulerCharacteristic))
+  {
+    return std::nullopt;
+  }
+  return toFill(quads, pins, face.vertexCount(), ground);
+}
+
+} // namespace quadrille

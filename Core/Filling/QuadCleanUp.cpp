@@ -1,0 +1,375 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filling/QuadCleanUp.h"
+
+#include "Base/Lists.h"
+#include "Filling/QuadRelaxation.h"
+#include "Quads/QuadMesh.h"
+#include "Quads/QuadTopology.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Passes over all quads; faces that are not done after so many hardly change any more.
+constexpr int kPasses = 20;
+/// Sweeps of smoothing after each pass, and at the end.
+constexpr int kSweeps = 2, kLastSweeps = 10;
+/// A change of the connectivity may make quads worse than they are down to this shape (see quadShape) only: smoothing
+/// raises it again.
+constexpr double kSoundShape = 0.1;
+/// What a quad too many or too few at a pin, where angles are fixed, counts more than inside.
+constexpr double kPinWeight = 2;
+
+using Quad = std::array<Index, 4>;
+using Edge = std::pair<Index, Index>;
+
+Edge edgeOf(const Quad& quad, std::size_t i)
+{
+  return std::minmax(quad[i], quad[(i + 1) % 4]);
+}
+
+class QuadChanges
+{
+public:
+  explicit QuadChanges(FaceQuads& mesh)
+    : mesh_(mesh), topology_(analyzeQuads(mesh.quads, mesh.points.size())),
+      isChanged_(mesh.quads.size(), 0), quadsAt_(mesh.points.size(),
+                                          [&mesh](const auto& visit)
+                                          {
+                                            for (Index h = 0; h < 4 * mesh.quads.size(); ++h)
+                                            {
+                                              visit(mesh.quads[h / 4][h % 4], h);
+                                            }
+                                          })
+  {
+  }
+
+  /// One pass over all quads; whether something was changed.
+  bool run()
+  {
+    const std::size_t pointCount = mesh_.points.size();
+    bool any = false;
+    for (Index v = mesh_.pinCount; v < pointCount; ++v)
+    {
+      any |= tryDoublet(v);
+    }
+    for (Index h = 0; h < isChanged_.size() * 4; ++h)
+    {
+      any |= tryCollapse(h) || tryRotateEdge(h);
+    }
+    for (Index v = 0; v < pointCount; ++v)
+    {
+      any |= tryRotatePoint(v) || trySplit(v);
+    }
+    eraseIf(mesh_.quads, [](const Quad& quad) { return quad[0] == kInvalidIndex; });
+    return any;
+  }
+
+private:
+  bool isPin(Index v) const { return v < mesh_.pinCount; }
+  Index quadCount(Index v) const { return quadsAt_.size(v); }
+
+  Index corner(Index h) const { return mesh_.quads[h / 4][h % 4]; }
+
+  /// The half-edges that leave a point, counterclockwise; of a pin from the boundary to the boundary.
+  std::vector<Index> fan(Index v) const
+  {
+    std::vector<Index> result;
+    if (quadCount(v) == 0)
+    {
+      return result;
+    }
+    Index first = *quadsAt_.begin(v);
+    for (const Index* h = quadsAt_.begin(v); h != quadsAt_.end(v); ++h)
+    {
+      first = topology_.twin[*h] == kInvalidIndex ? *h : first;
+    }
+    Index h = first;
+    do
+    {
+      result.push_back(h);
+      h = topology_.twin[previousInQuad(h)];
+    } while (h != kInvalidIndex && h != first);
+    return result;
+  }
+
+  bool isFresh(Index v) const
+  {
+    return std::all_of(
+      quadsAt_.begin(v), quadsAt_.end(v), [this](Index h) { return isChanged_[h / 4] == 0; });
+  }
+
+  bool areNeighbours(Index a, Index b) const
+  {
+    return std::any_of(quadsAt_.begin(a), quadsAt_.end(a),
+      [&](Index h) { return corner(nextInQuad(h)) == b || corner(previousInQuad(h)) == b; });
+  }
+
+  double worstShape(const std::vector<Quad>& quads) const
+  {
+    double worst = 1;
+    for (const Quad& quad : quads)
+    {
+      worst = std::min(worst, shapeOfQuad(mesh_, quad));
+    }
+    return worst;
+  }
+
+  double misfit(Index v, Index count) const
+  {
+    const double off = count - mesh_.fitting[v];
+    return isPin(v) ? kPinWeight * off * off : count == 0 ? 0 : off * off;
+  }
+
+  bool fits(Index v, Index count) const { return isPin(v) ? count >= 1 : count == 0 || count >= 3; }
+
+  /// Replaces quads by others with the same boundary, where that is an improvement; the last point may be a new one.
+  bool change(const std::vector<Index>& old, const std::vector<Quad>& made, bool mustGain = true)
+  {
+    std::vector<Quad> before;
+    std::vector<Index> points;
+    std::vector<Edge> edges;
+    for (const Index q : old)
+    {
+      before.push_back(mesh_.quads[q]);
+      append(points, mesh_.quads[q]);
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        edges.push_back(edgeOf(mesh_.quads[q], i));
+      }
+    }
+    sortUnique(points);
+    if (!std::all_of(points.begin(), points.end(), [this](Index v) { return isFresh(v); }) ||
+      !joinsAnew(made, edges))
+    {
+      return false;
+    }
+    const auto countIn = [](const std::vector<Quad>& quads, Index v)
+    {
+      return static_cast<Index>(std::count_if(
+        quads.begin(), quads.end(), [v](const Quad& quad) { return contains(quad, v); }));
+    };
+    double gain = 0;
+    for (const Index v : points)
+    {
+      const Index after = quadCount(v) + countIn(made, v) - countIn(before, v);
+      if (mustGain && !fits(v, after))
+      {
+        return false;
+      }
+      gain += misfit(v, quadCount(v)) - misfit(v, after);
+    }
+    if (mesh_.points.size() > oldPointCount())
+    {
+      const Index v = static_cast<Index>(mesh_.points.size() - 1);
+      gain -= misfit(v, countIn(made, v));
+    }
+    if (mustGain && (gain < 1e-6 || worstShape(made) < std::min(kSoundShape, worstShape(before))))
+    {
+      return false;
+    }
+    replace(old, made);
+    return true;
+  }
+
+  std::size_t oldPointCount() const { return topology_.valence.size(); }
+
+  /// Are the four points of each quad different ones, and all edges that were none before new ones?
+  bool joinsAnew(const std::vector<Quad>& made, std::vector<Edge> edges) const
+  {
+    sortUnique(edges);
+    for (const Quad& quad : made)
+    {
+      Quad sorted = quad;
+      std::sort(sorted.begin(), sorted.end());
+      if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      {
+        return false;
+      }
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        const Edge edge = edgeOf(quad, i);
+        if (!std::binary_search(edges.begin(), edges.end(), edge) &&
+          edge.second < oldPointCount() && areNeighbours(edge.first, edge.second))
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  void replace(const std::vector<Index>& old, const std::vector<Quad>& made)
+  {
+    for (std::size_t i = 0; i < std::max(old.size(), made.size()); ++i)
+    {
+      if (i >= old.size())
+      {
+        mesh_.quads.push_back(made[i]);
+        continue;
+      }
+      isChanged_[old[i]] = 1;
+      mesh_.quads[old[i]] = i < made.size()
+        ? made[i]
+        : Quad{ kInvalidIndex, kInvalidIndex, kInvalidIndex, kInvalidIndex };
+    }
+  }
+
+  /// A point with two quads: they become one.
+  bool tryDoublet(Index v)
+  {
+    if (quadCount(v) != 2 || !isFresh(v))
+    {
+      return false;
+    }
+    const Index h = quadsAt_.begin(v)[0], g = quadsAt_.begin(v)[1];
+    return change({ h / 4, g / 4 },
+      { { corner(nextInQuad(h)), corner(oppositeInQuad(h)), corner(previousInQuad(h)),
+        corner(oppositeInQuad(g)) } },
+      false);
+  }
+
+  /// The quad of h goes, and so does the point where h begins: it becomes the opposite one.
+  bool tryCollapse(Index h)
+  {
+    if (isChanged_[h / 4] != 0 || isPin(corner(h)) || !isFresh(corner(h)))
+    {
+      return false;
+    }
+    const Index v = corner(h), kept = corner(oppositeInQuad(h));
+    if (areNeighbours(v, kept))
+    {
+      return false;
+    }
+    std::vector<Index> old;
+    std::vector<Quad> made;
+    for (const Index g : fan(v))
+    {
+      old.push_back(g / 4);
+      if (g != h)
+      {
+        made.push_back(mesh_.quads[g / 4]);
+        made.back()[g % 4] = kept;
+      }
+    }
+    return change(old, made);
+  }
+
+  /// The edge between two quads comes to join two other corners of the hexagon that they are.
+  bool tryRotateEdge(Index h)
+  {
+    const Index g = topology_.twin[h];
+    if (g == kInvalidIndex || g < h || isChanged_[h / 4] != 0 || isChanged_[g / 4] != 0)
+    {
+      return false;
+    }
+    const std::array<Index, 6> ring{ corner(nextInQuad(h)), corner(oppositeInQuad(h)),
+      corner(previousInQuad(h)), corner(h), corner(oppositeInQuad(g)), corner(previousInQuad(g)) };
+    // h joins 3 and 0.
+    return change({ h / 4, g / 4 },
+             { { ring[0], ring[1], ring[4], ring[5] }, { ring[1], ring[2], ring[3], ring[4] } }) ||
+      change({ h / 4, g / 4 },
+        { { ring[5], ring[0], ring[1], ring[2] }, { ring[2], ring[3], ring[4], ring[5] } });
+  }
+
+  /// The edges of a point come to join it with the opposite corners of its quads.
+  bool tryRotatePoint(Index v)
+  {
+    if (isPin(v) || quadCount(v) < 3 || !isFresh(v))
+    {
+      return false;
+    }
+    std::vector<Index> old;
+    std::vector<Quad> made;
+    const std::vector<Index> out = fan(v);
+    for (std::size_t i = 0; i < out.size(); ++i)
+    {
+      const Index last = out[(i + out.size() - 1) % out.size()];
+      old.push_back(out[i] / 4);
+      made.push_back({ v, corner(oppositeInQuad(last)), corner(nextInQuad(out[i])),
+        corner(oppositeInQuad(out[i])) });
+    }
+    return change(old, made);
+  }
+
+  /// Some quads in a row at a point get a new one instead, and between the two comes another quad.
+  bool trySplit(Index v)
+  {
+    if (quadCount(v) < mesh_.fitting[v] + 0.5 || !isFresh(v))
+    {
+      return false;
+    }
+    const std::vector<Index> out = fan(v);
+    const std::size_t count = out.size();
+    for (std::size_t taken = 2; taken + (isPin(v) ? 0 : 2) <= count; ++taken)
+    {
+      for (std::size_t first = 0; first < (isPin(v) ? count - taken + 1 : count); ++first)
+      {
+        if (splitOff(v, out, first, taken))
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  bool splitOff(Index v, const std::vector<Index>& out, std::size_t first, std::size_t taken)
+  {
+    const Index added = static_cast<Index>(mesh_.points.size());
+    std::vector<Index> old;
+    std::vector<Quad> made;
+    Vector3 sum = Vector3::Zero();
+    for (std::size_t i = 0; i < out.size(); ++i)
+    {
+      const Index h = out[(first + i) % out.size()];
+      old.push_back(h / 4);
+      made.push_back(mesh_.quads[h / 4]);
+      if (i < taken)
+      {
+        made.back()[h % 4] = added;
+        sum += mesh_.points[corner(oppositeInQuad(h))];
+      }
+    }
+    const Index start = corner(nextInQuad(out[first]));
+    const Index end = corner(previousInQuad(out[(first + taken - 1) % out.size()]));
+    made.push_back({ v, start, added, end });
+    mesh_.points.emplace_back((mesh_.points[v] + sum / static_cast<double>(taken)) / 2);
+    mesh_.normals.push_back(mesh_.normals[v]);
+    mesh_.fitting.push_back(4);
+    const bool isDone = change(old, made);
+    if (!isDone)
+    {
+      mesh_.points.pop_back();
+      mesh_.normals.pop_back();
+      mesh_.fitting.pop_back();
+    }
+    return isDone;
+  }
+
+  FaceQuads& mesh_;
+  QuadTopology topology_;
+  std::vector<std::uint8_t> isChanged_; ///< per quad of before
+  Grouped<> quadsAt_;                   ///< per point the half-edges that leave it
+};
+
+} // namespace
+
+void cleanUpQuads(FaceQuads& mesh, const FaceGround& ground)
+{
+  bool any = true;
+  for (int pass = 0; any && pass < kPasses; ++pass)
+  {
+    relaxQuads(mesh, ground, kSweeps);
+    any = QuadChanges(mesh).run();
+  }
+  relaxQuads(mesh, ground, kLastSweeps);
+}
+
+} // namespace quadrille
