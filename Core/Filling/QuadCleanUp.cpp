@@ -8,6 +8,8 @@
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace quadrille
@@ -61,7 +63,7 @@ public:
     }
     for (Index h = 0; h < isChanged_.size() * 4; ++h)
     {
-      any |= tryCollapse(h) || tryRotateEdge(h);
+      any |= tryCollapse(h) || tryRotateEdge(h) || tryInsert(h);
     }
     for (Index v = 0; v < pointCount; ++v)
     {
@@ -121,15 +123,17 @@ private:
     return worst;
   }
 
+  /// How far off angles are by the number of quads, as if each had the same share.
   double misfit(Index v, Index count) const
   {
-    const double off = count - mesh_.fitting[v];
-    return isPin(v) ? kPinWeight * off * off : count == 0 ? 0 : off * off;
+    const double off = count == 0 ? 0 : std::log(count / mesh_.fitting[v]);
+    return isPin(v) ? kPinWeight * off * off : off * off;
   }
 
   bool fits(Index v, Index count) const { return isPin(v) ? count >= 1 : count == 0 || count >= 3; }
 
-  /// Replaces quads by others with the same boundary, where that is an improvement; the last point may be a new one.
+  /// Replaces quads by others with the same boundary, where that is an improvement; there may be
+  /// new points among theirs.
   bool change(const std::vector<Index>& old, const std::vector<Quad>& made, bool mustGain = true)
   {
     std::vector<Quad> before;
@@ -165,9 +169,8 @@ private:
       }
       gain += misfit(v, quadCount(v)) - misfit(v, after);
     }
-    if (mesh_.points.size() > oldPointCount())
+    for (std::size_t v = oldPointCount(); v < mesh_.points.size(); ++v)
     {
-      const Index v = static_cast<Index>(mesh_.points.size() - 1);
       gain -= misfit(v, countIn(made, v));
     }
     if (mustGain && (gain < 1e-6 || worstShape(made) < std::min(kSoundShape, worstShape(before))))
@@ -261,21 +264,79 @@ private:
     return change(old, made);
   }
 
-  /// The edge between two quads comes to join two other corners of the hexagon that they are.
-  bool tryRotateEdge(Index h)
+  /// The hexagon of the two quads at an edge, counterclockwise; the edge joins its points 0 and 3. None where one of
+  /// them is changed already.
+  std::optional<std::array<Index, 6>> hexagonAt(Index h) const
   {
     const Index g = topology_.twin[h];
     if (g == kInvalidIndex || g < h || isChanged_[h / 4] != 0 || isChanged_[g / 4] != 0)
     {
+      return std::nullopt;
+    }
+    return std::array<Index, 6>{ corner(nextInQuad(h)), corner(oppositeInQuad(h)),
+      corner(previousInQuad(h)), corner(h), corner(oppositeInQuad(g)), corner(previousInQuad(g)) };
+  }
+
+  /// The edge comes to join two other points of the hexagon.
+  bool tryRotateEdge(Index h)
+  {
+    const auto hexagon = hexagonAt(h);
+    if (!hexagon)
+    {
       return false;
     }
-    const std::array<Index, 6> ring{ corner(nextInQuad(h)), corner(oppositeInQuad(h)),
-      corner(previousInQuad(h)), corner(h), corner(oppositeInQuad(g)), corner(previousInQuad(g)) };
-    // h joins 3 and 0.
-    return change({ h / 4, g / 4 },
-             { { ring[0], ring[1], ring[4], ring[5] }, { ring[1], ring[2], ring[3], ring[4] } }) ||
-      change({ h / 4, g / 4 },
-        { { ring[5], ring[0], ring[1], ring[2] }, { ring[2], ring[3], ring[4], ring[5] } });
+    const auto& r = *hexagon;
+    const std::vector<Index> old{ h / 4, topology_.twin[h] / 4 };
+    return change(old, { { r[0], r[1], r[4], r[5] }, { r[1], r[2], r[3], r[4] } }) ||
+      change(old, { { r[5], r[0], r[1], r[2] }, { r[2], r[3], r[4], r[5] } });
+  }
+
+  /// Four quads in place of two, with two new points: two opposite points of the hexagon get another edge each, and no
+  /// other point one more or less.
+  bool tryInsert(Index h)
+  {
+    const auto hexagon = hexagonAt(h);
+    if (!hexagon)
+    {
+      return false;
+    }
+    const auto& r = *hexagon;
+    const std::vector<Index> old{ h / 4, topology_.twin[h] / 4 };
+    const auto m = static_cast<Index>(mesh_.points.size()), n = m + 1;
+    const auto insert = [&](Index atM, Index atN, const std::vector<Quad>& made)
+    {
+      addPoint(r, r[3], atM);
+      addPoint(r, r[0], atN);
+      const bool isDone = change(old, made);
+      resize(isDone ? n + 1 : m);
+      return isDone;
+    };
+    return insert(r[5], r[2],
+             { { r[4], r[5], m, r[3] }, { r[3], m, n, r[2] }, { r[5], r[0], n, m },
+               { r[0], r[1], r[2], n } }) ||
+      insert(r[1], r[4],
+        { { r[1], r[2], r[3], m }, { m, r[3], r[4], n }, { r[0], r[1], m, n },
+          { r[4], r[5], r[0], n } });
+  }
+
+  /// Half way from the middle of the hexagon to that of two of its points.
+  void addPoint(const std::array<Index, 6>& hexagon, Index a, Index b)
+  {
+    Vector3 sum = Vector3::Zero();
+    for (const Index v : hexagon)
+    {
+      sum += mesh_.points[v];
+    }
+    mesh_.points.emplace_back(sum / 12 + (mesh_.points[a] + mesh_.points[b]) / 4);
+    mesh_.normals.push_back((mesh_.normals[a] + mesh_.normals[b]).normalized());
+    mesh_.fitting.push_back(4);
+  }
+
+  void resize(std::size_t count)
+  {
+    mesh_.points.resize(count);
+    mesh_.normals.resize(count);
+    mesh_.fitting.resize(count);
   }
 
   /// The edges of a point come to join it with the opposite corners of its quads.
@@ -344,12 +405,7 @@ private:
     mesh_.normals.push_back(mesh_.normals[v]);
     mesh_.fitting.push_back(4);
     const bool isDone = change(old, made);
-    if (!isDone)
-    {
-      mesh_.points.pop_back();
-      mesh_.normals.pop_back();
-      mesh_.fitting.pop_back();
-    }
+    resize(isDone ? added + 1 : added);
     return isDone;
   }
 
