@@ -108,10 +108,28 @@ private:
   }
 
   /// May the origin of h go for good, for the sake of where it stands?
-  bool isSpare(Index h) const
+  bool isSpare(Index h, const std::vector<std::uint8_t>& isTurnedOver) const
   {
     const Index v = mesh().origin[h];
-    return isInner(v) ? lengthOf(h) < kShort : !ground_.isPin(v) && mesh().isBoundary(h);
+    return isInner(v) ? lengthOf(h) < kShort || isTurnedOver[v] != 0
+                      : !ground_.isPin(v) && mesh().isBoundary(h);
+  }
+
+  /// Per vertex: is a face there turned over?
+  std::vector<std::uint8_t> findTurnedOver() const
+  {
+    std::vector<std::uint8_t> result(mesh().vertexCount(), 0);
+    for (Index f = 0; f < mesh().faceCount(); ++f)
+    {
+      if (!isRemoved(3 * f) && shapeOfFace(f) < 0)
+      {
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        {
+          result[mesh().origin[h]] = 1;
+        }
+      }
+    }
+    return result;
   }
 
   void collapseEdges()
@@ -119,10 +137,11 @@ private:
     bool any = true;
     for (int pass = 0; any && pass < kRounds; ++pass)
     {
+      const std::vector<std::uint8_t> isTurnedOver = findTurnedOver();
       std::vector<std::pair<double, Index>> spare;
       for (Index h = 0; h < mesh().halfEdgeCount(); ++h)
       {
-        if (!isRemoved(h) && isSpare(h))
+        if (!isRemoved(h) && isSpare(h, isTurnedOver))
         {
           spare.emplace_back(lengthOf(h), h);
         }
@@ -131,7 +150,8 @@ private:
       any = false;
       for (const auto& [length, h] : spare)
       {
-        if (!isRemoved(h) && isSpare(h) && isSoundCollapse(h) && mayCollapse(mesh(), h))
+        if (!isRemoved(h) && isSpare(h, isTurnedOver) && isSoundCollapse(h) &&
+          mayCollapse(mesh(), h))
         {
           collapseEdge(result_.surface, h);
           any = true;
@@ -156,7 +176,8 @@ private:
           longest = std::max({ longest, lengthBetween(u, a), lengthBetween(u, b) });
         }
       });
-    return isBetter(after, before) && (longest < kLong || before <= 0 || !isInner(v));
+    return before < 0 ? after > before
+                      : isBetter(after, before) && (longest < kLong || before == 0 || !isInner(v));
   }
 
   double lengthBetween(Index a, Index b) const

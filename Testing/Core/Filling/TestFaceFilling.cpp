@@ -65,6 +65,8 @@ Shapes shapesOf(const FillCase& c, const FaceFill& fill, double edgeLength)
   return shapes;
 }
 
+constexpr int kRandomFaces = 200;
+
 void write(const QuadMesh& mesh, const std::string& name)
 {
   const char* folder = std::getenv("FILL_OBJ");
@@ -97,7 +99,10 @@ Shapes checkFill(const FillCase& c, double edgeLength)
   }
   const QuadMesh mesh = allPoints(c, *fill);
   const auto& test = *testing::UnitTest::GetInstance()->current_test_info();
-  write(mesh, test.name());
+  static int number = 0;
+  write(mesh,
+    std::string(test.name()) +
+      (std::string(test.name()) == "RandomFaces" ? std::to_string(number++) : ""));
   const IndependentCheck check(mesh);
   const TopologySummary face = summarizeTopology(c.mesh);
   EXPECT_TRUE(check.oriented && check.vertexManifold);
@@ -301,7 +306,8 @@ TEST(FaceFilling, RandomSpacing)
 TEST(FaceFilling, NarrowSlot)
 {
   const PinLoop loop = polygonLoop(
-    { { 0, 0 }, { 8, 0 }, { 8, 3 }, { 3, 3 }, { 3, 3.3 }, { 8, 3.3 }, { 8, 6.6 }, { 0, 6.6 } }, 1, 1);
+    { { 0, 0 }, { 8, 0 }, { 8, 3 }, { 3, 3 }, { 3, 3.3 }, { 8, 3.3 }, { 8, 6.6 }, { 0, 6.6 } }, 1,
+    1);
   expectGood(planeCase({ loop }), 1);
 }
 
@@ -333,6 +339,52 @@ TEST(FaceFilling, FineFace)
   const FillCase c = refined(rectangle(25, 20), 4);
   ASSERT_GT(c.mesh.faceCount(), 20000u);
   expectGood(c, 1);
+}
+
+// Whatever the size that is asked for: the pins are 0.7 to 1.6 apart, the quads' edges should be 0.33 to 3.
+TEST(FaceFilling, RandomFaces)
+{
+  std::mt19937 random(3);
+  const auto uniform = [&](double from, double to)
+  { return from + (to - from) * (random() / 4294967296.0); };
+  for (int i = 0; i < kRandomFaces; ++i)
+  {
+    const double radius = uniform(1.5, 6), wave = uniform(0, 0.35), phase = uniform(0, 6);
+    const int waves = static_cast<int>(random() % 5), holes = static_cast<int>(random() % 4);
+    const int between = static_cast<int>(random() % 4);
+    PinLoop outer = circleLoop({ 0, 0 }, radius, static_cast<int>(uniform(4, 9) * radius), between);
+    for (Vector2& p : outer.points)
+    {
+      p *= 1 + wave * std::cos(waves * std::atan2(p.y(), p.x()) + phase);
+    }
+    std::vector<PinLoop> loops{ outer };
+    for (int k = 0; k < holes; ++k)
+    {
+      const double angle = 2 * kPi * k / holes + phase;
+      loops.push_back(circleLoop(Vector2(std::cos(angle), std::sin(angle)) * radius * 0.35,
+        radius * uniform(0.03, 0.2), 3 + static_cast<int>(random() % 8), between + 1, true));
+    }
+    std::ptrdiff_t pins = 0;
+    for (const PinLoop& loop : loops)
+    {
+      pins += std::count(loop.isPin.begin(), loop.isPin.end(), 1);
+    }
+    if (pins % 2 == 1)
+    {
+      loops[0].isPin[1] = 1;
+      if (between == 0)
+      {
+        continue;
+      }
+    }
+    const int refinements = static_cast<int>(random() % 4);
+    const double bend =
+      refinements < 2 ? 0 : uniform(0, 0.2); // else the triangles would make ridges
+    const FillCase c = bent(refined(planeCase(loops), refinements),
+      [&](const Vector3& p)
+      { return Vector3(p.x(), p.y(), bend * (p.x() * p.x() - p.x() * p.y())); });
+    checkFill(c, std::pow(3, uniform(-1, 1)));
+  }
 }
 
 TEST(FaceFilling, SizesCount)
