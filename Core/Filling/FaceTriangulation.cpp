@@ -28,6 +28,8 @@ constexpr double kTriangleEdge = 1.0746;
 constexpr double kShort = 4.0 / 5, kLong = 4.0 / 3;
 /// A change may make triangles worse than they are down to this shape only (see triangleShape).
 constexpr double kSoundShape = 0.4;
+/// Moves shorter than this share of the wanted length are not worth a search for the place below.
+constexpr double kLeastMove = 0.02;
 
 class FaceRemeshing
 {
@@ -356,8 +358,12 @@ private:
         sum += mesh().position[mesh().target(g)];
         ++count;
       });
-    const double before = worstShapeAt(h);
     const Vector3 place = mesh().position[v], normal = result_.normals[v];
+    if ((sum / count - place).norm() < kLeastMove * ground_.edgeLength() * sizeAt(mesh(), v))
+    {
+      return;
+    }
+    const double before = worstShapeAt(h);
     for (const double share : { 1.0, 0.5 })
     {
       const auto spot = ground_.at(place + share * (sum / count - place), normal);

@@ -17,6 +17,8 @@ namespace
 
 /// Moves may make quads worse than they are down to this shape only.
 constexpr double kSoundShape = 0.6;
+/// Moves shorter than this share of the edges are not worth a search for the place below.
+constexpr double kLeastMove = 0.02;
 /// Points with a quad of a shape below this look for a better place than the mean of their neighbours.
 constexpr double kBadShape = 0.4;
 /// So many directions, and steps as shares of the mean length of their edges.
@@ -109,8 +111,12 @@ private:
 
   void moveToMean(Index v)
   {
-    const double least = std::min(kSoundShape, worstShapeAt(v));
     const Vector3 place = mesh_.points[v], mean = meanOfNeighbours(v);
+    if ((mean - place).norm() < kLeastMove * meanEdge(v))
+    {
+      return;
+    }
+    const double least = std::min(kSoundShape, worstShapeAt(v));
     if (!tryMove(v, mean, least))
     {
       tryMove(v, (place + mean) / 2, least);
