@@ -137,8 +137,9 @@ FaceFill toFill(const FaceQuads& quads, const std::vector<Index>& pins, Index ve
   FaceFill fill;
   for (Index v = quads.pinCount; v < quads.points.size(); ++v)
   {
-    const auto facing = ground.at(quads.points[v], quads.normals[v]);
-    const FaceGround::Spot spot = facing ? *facing : *ground.at(quads.points[v], Vector3::Zero());
+    const Vector3& p = quads.points[v];
+    const auto facing = ground.at(p, quads.normals[v], p);
+    const FaceGround::Spot spot = facing ? *facing : *ground.at(p, Vector3::Zero(), p);
     fill.points.push_back(spot.point);
     fill.sourceFace.push_back(spot.face);
     fill.sourceWeights.push_back(spot.weights);

@@ -148,9 +148,14 @@ double FaceGround::sizeNear(const Vector3& p, double size) const
   return size;
 }
 
-std::optional<FaceGround::Spot> FaceGround::at(const Vector3& p, const Vector3& facing) const
+std::optional<FaceGround::Spot> FaceGround::at(
+  const Vector3& p, const Vector3& facing, const Vector3& near) const
 {
-  const auto place = nearest_.at(p, facing);
+  auto place = nearest_.at(p, facing, 1.1 * (p - near).norm());
+  if (!place)
+  {
+    place = nearest_.at(p, facing);
+  }
   if (!place)
   {
     return std::nullopt;

@@ -30,8 +30,9 @@ public:
   /// As for fillFace. The mesh must live as long as the ground.
   FaceGround(const Mesh& face, const std::vector<std::uint8_t>& isPin, double edgeLength);
 
-  /// The nearest place whose face looks where `facing` does; none where there is no such face.
-  std::optional<Spot> at(const Vector3& p, const Vector3& facing) const;
+  /// The nearest place whose face looks where `facing` does; none where there is no such face. near: a place that is
+  /// about on the face, which makes the search shorter.
+  std::optional<Spot> at(const Vector3& p, const Vector3& facing, const Vector3& near) const;
   /// Per vertex of the face; of length 1, or zero.
   const std::vector<Vector3>& normals() const { return normals_; }
   /// That is wanted at a place whose size is `size` for itself: near pins that stand closer together it is less.

@@ -366,7 +366,7 @@ private:
     const double before = worstShapeAt(h);
     for (const double share : { 1.0, 0.5 })
     {
-      const auto spot = ground_.at(place + share * (sum / count - place), normal);
+      const auto spot = ground_.at(place + share * (sum / count - place), normal, place);
       if (!spot)
       {
         continue;

@@ -92,7 +92,7 @@ private:
   /// Whether the worst shape at the point is at least so good there; if not, it stays.
   bool tryMove(Index v, const Vector3& to, double least)
   {
-    const auto spot = ground_.at(to, mesh_.normals[v]);
+    const auto spot = ground_.at(to, mesh_.normals[v], mesh_.points[v]);
     if (!spot)
     {
       return false;

@@ -52,7 +52,7 @@ Shapes shapesOf(const FillCase& c, const FaceFill& fill, double edgeLength)
     {
       ++counts[v];
       normal += v < c.mesh.vertexCount() ? ground.normals()[v]
-                                         : ground.at(mesh.points[v], Vector3::Zero())->normal;
+                                         : ground.at(mesh.points[v], Vector3::Zero(), mesh.points[v])->normal;
     }
     const double shape = quadShape(cornersOf(mesh.points, quad), normal);
     shapes.worst = std::min(shapes.worst, shape);
