@@ -152,7 +152,7 @@ private:
       any = false;
       for (const auto& [length, h] : spare)
       {
-        if (!isRemoved(h) && isSpare(h, isTurnedOver) && isSoundCollapse(h) &&
+        if (!isRemoved(h) && isSpare(h, isTurnedOver) && isSoundCollapse(h, isTurnedOver[mesh().origin[h]] != 0) &&
           mayCollapse(mesh(), h))
         {
           collapseEdge(result_.surface, h);
@@ -162,24 +162,25 @@ private:
     }
   }
 
-  /// Neither long edges nor bad triangles; but where triangles are bad as they are, long edges are the lesser evil.
-  bool isSoundCollapse(Index h) const
+  /// Neither long edges nor bad triangles; but at turned over ones, long edges are the lesser evil.
+  bool isSoundCollapse(Index h, bool isTurnedOver) const
   {
     const Index v = mesh().origin[h], u = mesh().target(h);
-    double before = 1, after = 1, longest = 0;
+    double longest = 0;
+    forEachInFan(mesh(), h, [&](Index g) { longest = std::max(longest, lengthBetween(u, mesh().target(g))); });
+    if (longest > kLong && isInner(v) && !isTurnedOver)
+    {
+      return false;
+    }
+    double before = 1, after = 1;
     forEachInFan(mesh(), h,
       [&](Index g)
       {
         const Index a = mesh().target(g), b = mesh().origin[Mesh::previous(g)];
         before = std::min(before, shapeOf(v, a, b));
-        if (a != u && b != u)
-        {
-          after = std::min(after, shapeOf(u, a, b));
-          longest = std::max({ longest, lengthBetween(u, a), lengthBetween(u, b) });
-        }
+        after = a == u || b == u ? after : std::min(after, shapeOf(u, a, b));
       });
-    return before < 0 ? after > before
-                      : isBetter(after, before) && (longest < kLong || before == 0 || !isInner(v));
+    return before < 0 ? after > before : isBetter(after, before);
   }
 
   double lengthBetween(Index a, Index b) const
