@@ -21,6 +21,11 @@ namespace quadrille
 namespace
 {
 
+/// Where quads are bad, smaller ones are tried, as rings and strips have too little room for the wanted ones.
+constexpr std::array<double, 3> kTriedLengths{ 1, 0.85, 0.7 };
+/// Scaled Jacobians that are good enough.
+constexpr double kGoodWorst = 0.3, kGoodMean = 0.75;
+
 bool canBeFilled(
   const TopologySummary& topology, const std::vector<std::uint8_t>& isPin, const FaceGround& ground)
 {
@@ -131,6 +136,32 @@ void dropUnused(FaceQuads& mesh)
   mesh = std::move(kept);
 }
 
+FaceQuads makeQuads(const Mesh& face, const FaceGround& ground, const std::vector<Index>& pins)
+{
+  FaceTriangles triangles = triangulateFace(face, ground);
+  FaceQuads quads = ownPoints(ground, triangles, pairTriangles(triangles), pins);
+  cleanUpQuads(quads, ground);
+  dropUnused(quads);
+  return quads;
+}
+
+struct ShapeSummary
+{
+  double worst = 1, mean = 0;
+};
+
+ShapeSummary summarizeShapes(const FaceQuads& mesh)
+{
+  ShapeSummary result;
+  for (const std::array<Index, 4>& quad : mesh.quads)
+  {
+    const double shape = shapeOfQuad(mesh, quad);
+    result.worst = std::min(result.worst, shape);
+    result.mean += shape / static_cast<double>(mesh.quads.size());
+  }
+  return result;
+}
+
 FaceFill toFill(const FaceQuads& quads, const std::vector<Index>& pins, Index vertexCount,
   const FaceGround& ground)
 {
@@ -172,15 +203,25 @@ std::optional<FaceFill> fillFace(
   {
     return FaceFill{ {}, {}, {}, { quadOfPins(ground, pins[0]) } };
   }
-  FaceTriangles triangles = triangulateFace(face, ground);
-  FaceQuads quads = ownPoints(ground, triangles, pairTriangles(triangles), pins);
-  cleanUpQuads(quads, ground);
-  dropUnused(quads);
-  if (!fillsFace(quads, pins, ground, topology.eulerCharacteristic))
+  std::optional<FaceFill> best;
+  ShapeSummary bestShapes;
+  for (const double share : kTriedLengths)
   {
-    return std::nullopt;
+    const FaceGround tried(face, isPin, share * edgeLength);
+    const FaceQuads quads = makeQuads(face, tried, pins);
+    const ShapeSummary shapes = summarizeShapes(quads);
+    if (fillsFace(quads, pins, tried, topology.eulerCharacteristic) &&
+      (!best || shapes.worst + shapes.mean > bestShapes.worst + bestShapes.mean))
+    {
+      best = toFill(quads, pins, face.vertexCount(), tried);
+      bestShapes = shapes;
+    }
+    if (best && bestShapes.worst >= kGoodWorst && bestShapes.mean >= kGoodMean)
+    {
+      break;
+    }
   }
-  return toFill(quads, pins, face.vertexCount(), ground);
+  return best;
 }
 
 } // namespace quadrille

@@ -152,8 +152,8 @@ private:
       any = false;
       for (const auto& [length, h] : spare)
       {
-        if (!isRemoved(h) && isSpare(h, isTurnedOver) && isSoundCollapse(h, isTurnedOver[mesh().origin[h]] != 0) &&
-          mayCollapse(mesh(), h))
+        if (!isRemoved(h) && isSpare(h, isTurnedOver) &&
+          isSoundCollapse(h, isTurnedOver[mesh().origin[h]] != 0) && mayCollapse(mesh(), h))
         {
           collapseEdge(result_.surface, h);
           any = true;
@@ -167,7 +167,8 @@ private:
   {
     const Index v = mesh().origin[h], u = mesh().target(h);
     double longest = 0;
-    forEachInFan(mesh(), h, [&](Index g) { longest = std::max(longest, lengthBetween(u, mesh().target(g))); });
+    forEachInFan(
+      mesh(), h, [&](Index g) { longest = std::max(longest, lengthBetween(u, mesh().target(g))); });
     if (longest > kLong && isInner(v) && !isTurnedOver)
     {
       return false;
