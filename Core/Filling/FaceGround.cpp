@@ -106,9 +106,12 @@ void FaceGround::measureAngles()
       continue;
     }
     const Index v = nextPin_[u];
+    const Vector3& normal = normals_[v];
     const Vector3 back = face_.position[u] - face_.position[v];
     const Vector3 on = face_.position[nextPin_[v]] - face_.position[v];
-    double angle = std::atan2(normals_[v].dot(on.cross(back)), on.dot(back));
+    // In the tangent plane: lines between pins may leave it steeply.
+    double angle =
+      std::atan2(normal.dot(on.cross(back)), on.dot(back) - normal.dot(on) * normal.dot(back));
     // Of a cusp, the turn that the face has there.
     if (std::abs(angle + 2 * kPi - sums[v]) < std::abs(angle - sums[v]))
     {

@@ -51,8 +51,9 @@ Shapes shapesOf(const FillCase& c, const FaceFill& fill, double edgeLength)
     for (const Index v : quad)
     {
       ++counts[v];
-      normal += v < c.mesh.vertexCount() ? ground.normals()[v]
-                                         : ground.at(mesh.points[v], Vector3::Zero(), mesh.points[v])->normal;
+      normal += v < c.mesh.vertexCount()
+        ? ground.normals()[v]
+        : ground.at(mesh.points[v], Vector3::Zero(), mesh.points[v])->normal;
     }
     const double shape = quadShape(cornersOf(mesh.points, quad), normal);
     shapes.worst = std::min(shapes.worst, shape);
@@ -317,6 +318,74 @@ TEST(FaceFilling, ThreeHoles)
                circleLoop({ 3, 3 }, 1.3, 8, 3, true), circleLoop({ 8, 5 }, 2, 11, 3, true),
                circleLoop({ 9.5, 1.6 }, 0.5, 5, 3, true) }),
     1);
+}
+
+TEST(FaceFilling, ThinStrips)
+{
+  for (const double width : { 0.5, 0.1, 0.01 })
+  {
+    EXPECT_GT(checkFill(rectangle(30, width), 1).worst, 0);
+    PinLoop loop;
+    for (int i = 0; i < 30; ++i)
+    {
+      loop.add({ i, 0 }, true);
+    }
+    for (int i = 0; i < 28; ++i)
+    {
+      loop.add({ 30 - i * 30 / 28.0, width }, true);
+    }
+    checkFill(planeCase({ loop }), 1);
+  }
+}
+
+TEST(FaceFilling, Crescent)
+{
+  PinLoop loop;
+  for (int i = 0; i < 40; ++i)
+  {
+    const double angle = kPi * i / 40;
+    loop.add(5 * Vector2(std::cos(angle), std::sin(angle)), i % 4 == 0);
+  }
+  for (int i = 0; i < 40; ++i)
+  {
+    const double angle = kPi * i / 40;
+    loop.add(Vector2(-5 * std::cos(angle), 3.5 * std::sin(angle)), i % 5 == 0);
+  }
+  checkFill(planeCase({ loop }), 1);
+}
+
+TEST(FaceFilling, Tubes)
+{
+  for (const int pins : { 3, 4, 6, 8, 16 })
+  {
+    for (const double length : { 0.3, 1.0, 2.0, 5.0, 30.0 })
+    {
+      FillCase c;
+      const int around = 48, along = length < 1 ? 1 : 10;
+      c.mesh = openCylinder(around, along, pins * 0.95 / (2 * kPi), length);
+      c.isPin.assign(c.mesh.vertexCount(), 0);
+      for (Index h = 0; h < c.mesh.halfEdgeCount(); ++h)
+      {
+        const Vector3 p = c.mesh.position[c.mesh.origin[h]];
+        const double at = (std::atan2(p.y(), p.x()) / (2 * kPi) + 1) * pins;
+        c.isPin[c.mesh.origin[h]] |=
+          c.mesh.isBoundary(h) && std::abs(at - std::round(at)) < 1e-6 ? 1 : 0;
+      }
+      checkFill(c, 1);
+    }
+  }
+}
+
+TEST(FaceFilling, Fillet)
+{
+  for (const double radius : { 0.2, 0.6, 1.5 })
+  {
+    const FillCase c = bent(refined(rectangle(20, radius * kRightAngle, 1, 3), 1),
+      [&](const Vector3& p) {
+        return Vector3(p.x(), radius * std::sin(p.y() / radius), radius * std::cos(p.y() / radius));
+      });
+    EXPECT_GT(checkFill(c, 1).worst, 0);
+  }
 }
 
 TEST(FaceFilling, TorusWithOneLoop)
