@@ -220,8 +220,10 @@ TEST(FaceFilling, DiscWithOddHole)
 
 TEST(FaceFilling, FewPinsOnBothLoops)
 {
-  expectGood(
-    planeCase({ circleLoop({ 0, 0 }, 1.2, 7, 5), circleLoop({ 0, 0.1 }, 0.4, 5, 5, true) }), 1);
+  // Hardly room for a ring of quads.
+  const FillCase c =
+    planeCase({ circleLoop({ 0, 0 }, 1.2, 7, 5), circleLoop({ 0, 0.1 }, 0.4, 5, 5, true) });
+  EXPECT_GT(checkFill(c, 1).worst, 0.3);
 }
 
 TEST(FaceFilling, Disc)
