@@ -132,83 +132,105 @@ private:
 
   bool fits(Index v, Index count) const { return isPin(v) ? count >= 1 : count == 0 || count >= 3; }
 
-  /// Replaces quads by others with the same boundary, where that is an improvement; there may be
-  /// new points among theirs.
-  bool change(const std::vector<Index>& old, const std::vector<Quad>& made, bool mustGain = true)
+  /// Replaces quads by others with the same boundary, where angles come to fit better; there may be new points among
+  /// theirs.
+  bool improve(const std::vector<Index>& old, const std::vector<Quad>& made)
   {
-    std::vector<Quad> before;
-    std::vector<Index> points;
-    std::vector<Edge> edges;
+    return isBetter(old, made) && mayReplace(old, made) &&
+      worstShape(made) >= std::min(kSoundShape, worstShape(quadsOf(old))) && replace(old, made);
+  }
+
+  bool isBetter(const std::vector<Index>& old, const std::vector<Quad>& made) const
+  {
+    std::vector<std::pair<Index, int>> changes; // point, one quad less or more
+    const auto note = [&](const Quad& quad, int change)
+    {
+      for (const Index v : quad)
+      {
+        changes.emplace_back(v, change);
+      }
+    };
     for (const Index q : old)
     {
-      before.push_back(mesh_.quads[q]);
-      append(points, mesh_.quads[q]);
-      for (std::size_t i = 0; i < 4; ++i)
-      {
-        edges.push_back(edgeOf(mesh_.quads[q], i));
-      }
-    }
-    sortUnique(points);
-    if (!std::all_of(points.begin(), points.end(), [this](Index v) { return isFresh(v); }) ||
-      !joinsAnew(made, edges))
-    {
-      return false;
-    }
-    const auto countIn = [](const std::vector<Quad>& quads, Index v)
-    {
-      return static_cast<Index>(std::count_if(
-        quads.begin(), quads.end(), [v](const Quad& quad) { return contains(quad, v); }));
-    };
-    double gain = 0;
-    for (const Index v : points)
-    {
-      const Index after = quadCount(v) + countIn(made, v) - countIn(before, v);
-      if (mustGain && !fits(v, after))
+      if (isChanged_[q] != 0)
       {
         return false;
       }
-      gain += misfit(v, quadCount(v)) - misfit(v, after);
+      note(mesh_.quads[q], -1);
     }
-    for (std::size_t v = oldPointCount(); v < mesh_.points.size(); ++v)
+    for (const Quad& quad : made)
     {
-      gain -= misfit(v, countIn(made, v));
+      note(quad, 1);
     }
-    if (mustGain && (gain < 1e-6 || worstShape(made) < std::min(kSoundShape, worstShape(before))))
+    std::sort(changes.begin(), changes.end());
+    double gain = 0;
+    for (auto first = changes.begin(); first != changes.end();)
     {
-      return false;
+      const Index v = first->first, before = v < oldPointCount() ? quadCount(v) : 0;
+      Index after = before;
+      for (; first != changes.end() && first->first == v; ++first)
+      {
+        after += static_cast<Index>(first->second);
+      }
+      if (after != before)
+      {
+        if (!fits(v, after))
+        {
+          return false;
+        }
+        gain += misfit(v, before) - misfit(v, after);
+      }
     }
-    replace(old, made);
-    return true;
+    return gain > 1e-6;
+  }
+
+  std::vector<Quad> quadsOf(const std::vector<Index>& ids) const
+  {
+    std::vector<Quad> quads;
+    for (const Index q : ids)
+    {
+      quads.push_back(mesh_.quads[q]);
+    }
+    return quads;
   }
 
   std::size_t oldPointCount() const { return topology_.valence.size(); }
 
-  /// Are the four points of each quad different ones, and all edges that were none before new ones?
-  bool joinsAnew(const std::vector<Quad>& made, std::vector<Edge> edges) const
+  /// Is nothing changed yet around the quads, are the four points of each new one different, and all edges that were
+  /// none before new ones?
+  bool mayReplace(const std::vector<Index>& old, const std::vector<Quad>& made) const
   {
-    sortUnique(edges);
-    for (const Quad& quad : made)
+    std::vector<Edge> edges;
+    for (const Index q : old)
     {
-      Quad sorted = quad;
-      std::sort(sorted.begin(), sorted.end());
-      if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      const Quad& quad = mesh_.quads[q];
+      if (!std::all_of(quad.begin(), quad.end(), [this](Index v) { return isFresh(v); }))
       {
         return false;
       }
       for (std::size_t i = 0; i < 4; ++i)
       {
-        const Edge edge = edgeOf(quad, i);
-        if (!std::binary_search(edges.begin(), edges.end(), edge) &&
-          edge.second < oldPointCount() && areNeighbours(edge.first, edge.second))
-        {
-          return false;
-        }
+        edges.push_back(edgeOf(quad, i));
       }
     }
-    return true;
+    return std::all_of(made.begin(), made.end(),
+      [&](const Quad& quad)
+      {
+        for (std::size_t i = 0; i < 4; ++i)
+        {
+          const Edge edge = edgeOf(quad, i);
+          if (std::count(quad.begin(), quad.end(), quad[i]) > 1 ||
+            (!contains(edges, edge) && edge.second < oldPointCount() &&
+              areNeighbours(edge.first, edge.second)))
+          {
+            return false;
+          }
+        }
+        return true;
+      });
   }
 
-  void replace(const std::vector<Index>& old, const std::vector<Quad>& made)
+  bool replace(const std::vector<Index>& old, const std::vector<Quad>& made)
   {
     for (std::size_t i = 0; i < std::max(old.size(), made.size()); ++i)
     {
@@ -222,6 +244,7 @@ private:
         ? made[i]
         : Quad{ kInvalidIndex, kInvalidIndex, kInvalidIndex, kInvalidIndex };
     }
+    return true;
   }
 
   /// A point with two quads: they become one.
@@ -232,10 +255,10 @@ private:
       return false;
     }
     const Index h = quadsAt_.begin(v)[0], g = quadsAt_.begin(v)[1];
-    return change({ h / 4, g / 4 },
-      { { corner(nextInQuad(h)), corner(oppositeInQuad(h)), corner(previousInQuad(h)),
-        corner(oppositeInQuad(g)) } },
-      false);
+    const std::vector<Index> old{ h / 4, g / 4 };
+    const std::vector<Quad> made{ { corner(nextInQuad(h)), corner(oppositeInQuad(h)),
+      corner(previousInQuad(h)), corner(oppositeInQuad(g)) } };
+    return mayReplace(old, made) && replace(old, made);
   }
 
   /// The quad of h goes, and so does the point where h begins: it becomes the opposite one.
@@ -261,7 +284,7 @@ private:
         made.back()[g % 4] = kept;
       }
     }
-    return change(old, made);
+    return improve(old, made);
   }
 
   /// The hexagon of the two quads at an edge, counterclockwise; the edge joins its points 0 and 3. None where one of
@@ -287,8 +310,8 @@ private:
     }
     const auto& r = *hexagon;
     const std::vector<Index> old{ h / 4, topology_.twin[h] / 4 };
-    return change(old, { { r[0], r[1], r[4], r[5] }, { r[1], r[2], r[3], r[4] } }) ||
-      change(old, { { r[5], r[0], r[1], r[2] }, { r[2], r[3], r[4], r[5] } });
+    return improve(old, { { r[0], r[1], r[4], r[5] }, { r[1], r[2], r[3], r[4] } }) ||
+      improve(old, { { r[5], r[0], r[1], r[2] }, { r[2], r[3], r[4], r[5] } });
   }
 
   /// Four quads in place of two, with two new points: two opposite points of the hexagon get another edge each, and no
@@ -307,7 +330,7 @@ private:
     {
       addPoint(r, r[3], atM);
       addPoint(r, r[0], atN);
-      const bool isDone = change(old, made);
+      const bool isDone = improve(old, made);
       resize(isDone ? n + 1 : m);
       return isDone;
     };
@@ -356,7 +379,7 @@ private:
       made.push_back({ v, corner(oppositeInQuad(last)), corner(nextInQuad(out[i])),
         corner(oppositeInQuad(out[i])) });
     }
-    return change(old, made);
+    return improve(old, made);
   }
 
   /// Some quads in a row at a point get a new one instead, and between the two comes another quad.
@@ -404,7 +427,7 @@ private:
     mesh_.points.emplace_back((mesh_.points[v] + sum / static_cast<double>(taken)) / 2);
     mesh_.normals.push_back(mesh_.normals[v]);
     mesh_.fitting.push_back(4);
-    const bool isDone = change(old, made);
+    const bool isDone = improve(old, made);
     resize(isDone ? added + 1 : added);
     return isDone;
   }
