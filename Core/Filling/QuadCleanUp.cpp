@@ -25,8 +25,6 @@ constexpr int kSweeps = 2, kLastSweeps = 10;
 /// A change of the connectivity may make quads worse than they are down to this shape (see quadShape) only: smoothing
 /// raises it again.
 constexpr double kSoundShape = 0.1;
-/// What a quad too many or too few at a pin, where angles are fixed, counts more than inside.
-constexpr double kPinWeight = 2;
 
 using Quad = std::array<Index, 4>;
 using Edge = std::pair<Index, Index>;
@@ -127,7 +125,7 @@ private:
   double misfit(Index v, Index count) const
   {
     const double off = count == 0 ? 0 : std::log(count / mesh_.fitting[v]);
-    return isPin(v) ? kPinWeight * off * off : off * off;
+    return off * off;
   }
 
   bool fits(Index v, Index count) const { return isPin(v) ? count >= 1 : count == 0 || count >= 3; }

@@ -15,12 +15,11 @@ namespace quadrille
 namespace
 {
 
-/// Moves may make quads worse than they are down to this shape only.
+/// Moves may make quads worse than they are down to this shape only; points with a worse one look for a better place
+/// than the mean of their neighbours.
 constexpr double kSoundShape = 0.6;
 /// Moves shorter than this share of the edges are not worth a search for the place below.
 constexpr double kLeastMove = 0.02;
-/// Points with a quad of a shape below this look for a better place than the mean of their neighbours.
-constexpr double kBadShape = 0.4;
 /// So many directions, and steps as shares of the mean length of their edges.
 constexpr int kDirections = 8;
 constexpr std::array<double, 3> kSteps{ 0.4, 0.15, 0.05 };
@@ -49,7 +48,7 @@ public:
         continue;
       }
       moveToMean(v);
-      if (worstShapeAt(v) < kBadShape)
+      if (worstShapeAt(v) < kSoundShape)
       {
         moveToBest(v);
       }
