@@ -24,7 +24,7 @@ namespace
 /// Where quads are bad, smaller ones are tried, as rings and strips have too little room for the wanted ones.
 constexpr std::array<double, 3> kTriedLengths{ 1, 0.85, 0.7 };
 /// Scaled Jacobians that are good enough.
-constexpr double kGoodWorst = 0.3, kGoodMean = 0.75;
+constexpr double kGoodWorst = 0.2, kGoodMean = 0.75;
 
 bool canBeFilled(
   const TopologySummary& topology, const std::vector<std::uint8_t>& isPin, const FaceGround& ground)

@@ -156,30 +156,51 @@ private:
 
   /// The pentagon of a triangle and a quad that it enters:
   ///
-  ///        k-----d      the triangle is (j, i, a), the quad's half that it enters (i, j, k); the other half has the
-  ///       / \   /       point d and is on the edge jk, or on the edge ki.
+  ///        k-----d      The triangle is (j, i, a), the quad's half that it enters (i, j, k). The
+  ///       / \   /       other half has the point d and is on the edge jk as here, or on ki.
   ///      /   \ /
   ///     i-----j
   ///      \   /
   ///        a
+  struct Pentagon
+  {
+    Index i, j, k, a, d;
+    Index inner; ///< of the half-edges jk and ki the one between the quad's halves
+    Index own;   ///< the other one, by which the path may leave the half that it enters
+    Quad quadOfA, quadOfD; ///< that are left where that edge's triangle gets the point a, or d
+  };
+
+  Pentagon pentagonAt(Index entry, Index a) const
+  {
+    Pentagon p{};
+    p.i = mesh().origin[entry];
+    p.j = mesh().target(entry);
+    p.k = opposite(entry);
+    p.a = a;
+    const Index next = Mesh::next(entry), previous = Mesh::previous(entry);
+    const bool isAtNext =
+      !mesh().isBoundary(next) && Mesh::face(mesh().twin[next]) == mate_[Mesh::face(entry)];
+    p.inner = isAtNext ? next : previous;
+    p.own = isAtNext ? previous : next;
+    p.d = opposite(mesh().twin[p.inner]);
+    p.quadOfA = isAtNext ? Quad{ a, p.j, p.d, p.k } : Quad{ a, p.k, p.d, p.i };
+    p.quadOfD = isAtNext ? Quad{ p.i, a, p.j, p.d } : Quad{ p.d, p.i, a, p.j };
+    return p;
+  }
+
   template <typename Enter>
   void cross(const Entry& entry, Index cell, const Enter& enter) const
   {
-    const Index e = entry.halfEdge, a = entry.apex;
-    const Index i = mesh().origin[e], j = mesh().target(e), k = opposite(e);
-    const bool isAtNext = !mesh().isBoundary(Mesh::next(e)) &&
-      Mesh::face(mesh().twin[Mesh::next(e)]) == mate_[Mesh::face(e)];
-    const Index inner = isAtNext ? Mesh::next(e) : Mesh::previous(e);
-    const Index own = isAtNext ? Mesh::previous(e) : Mesh::next(e);
-    const Index beyond = mesh().twin[inner], d = opposite(beyond);
-    const double straight = entry.cost + 1 - shapeOf({ i, a, j, k });
+    const Pentagon p = pentagonAt(entry.halfEdge, entry.apex);
+    const double straight = entry.cost + 1 - shapeOf({ p.i, p.a, p.j, p.k });
+    const Index beyond = mesh().twin[p.inner];
     for (const Index exit : { Mesh::next(beyond), Mesh::previous(beyond) })
     {
       enter(exit, opposite(exit), straight, cell);
     }
-    const double withA = shapeOf(isAtNext ? Quad{ a, j, d, k } : Quad{ a, k, d, i });
-    const double withD = shapeOf(isAtNext ? Quad{ i, a, j, d } : Quad{ d, i, a, j });
-    enter(own, withA >= withD ? a : d, entry.cost + kFlipCost + 1 - std::max(withA, withD), cell);
+    const double withA = shapeOf(p.quadOfA), withD = shapeOf(p.quadOfD);
+    enter(
+      p.own, withA >= withD ? p.a : p.d, entry.cost + kFlipCost + 1 - std::max(withA, withD), cell);
   }
 
   void pairAlong(const std::vector<Index>& path)
@@ -202,23 +223,16 @@ private:
       mate_[other] = kInvalidIndex;
       return;
     }
-    const bool isAtNext =
-      !mesh().isBoundary(Mesh::next(entry)) && Mesh::face(mesh().twin[Mesh::next(entry)]) == other;
-    const Index inner = isAtNext ? Mesh::next(entry) : Mesh::previous(entry);
-    const Index a = opposite(mesh().twin[entry]), k = opposite(entry),
-                d = opposite(mesh().twin[inner]);
-    const Index i = mesh().origin[entry], j = mesh().target(entry);
-    const double withA = shapeOf(isAtNext ? Quad{ a, j, d, k } : Quad{ a, k, d, i });
-    const double withD = shapeOf(isAtNext ? Quad{ i, a, j, d } : Quad{ d, i, a, j });
-    const bool mayA = mayFlip(mesh(), entry), mayD = mayFlip(mesh(), inner);
-    if (mayA && (withA >= withD || !mayD))
+    const Pentagon p = pentagonAt(entry, opposite(mesh().twin[entry]));
+    const bool mayA = mayFlip(mesh(), entry), mayD = mayFlip(mesh(), p.inner);
+    if (mayA && (!mayD || shapeOf(p.quadOfA) >= shapeOf(p.quadOfD)))
     {
       flipEdge(triangles_.surface.mesh, entry);
       pairRest(triangle, half, other, onwards);
     }
     else if (mayD)
     {
-      flipEdge(triangles_.surface.mesh, inner);
+      flipEdge(triangles_.surface.mesh, p.inner);
       pairRest(half, other, triangle, onwards);
     }
     else
