@@ -82,7 +82,10 @@ bool fillsFace(const FaceQuads& quads, const std::vector<Index>& pins, const Fac
   long long eulerCharacteristic)
 {
   const QuadTopology topology = analyzeQuads(quads.quads, quads.points.size());
-  if (!topology.manifold() || topology.eulerCharacteristic != eulerCharacteristic ||
+  // Points that were dropped are isolated.
+  const bool isManifold = topology.nonManifoldEdges == 0 && topology.nonManifoldVertices == 0 &&
+    topology.degenerateQuads == 0;
+  if (!isManifold || topology.eulerCharacteristic != eulerCharacteristic ||
     topology.components != 1)
   {
     return false;
@@ -103,45 +106,11 @@ bool fillsFace(const FaceQuads& quads, const std::vector<Index>& pins, const Fac
   return count == pins.size();
 }
 
-/// Points that are in no quad any more go.
-void dropUnused(FaceQuads& mesh)
-{
-  std::vector<Index> now(mesh.points.size(), kInvalidIndex);
-  Index count = mesh.pinCount;
-  std::iota(now.begin(), now.begin() + count, 0);
-  for (std::array<Index, 4>& quad : mesh.quads)
-  {
-    for (Index& v : quad)
-    {
-      if (now[v] == kInvalidIndex)
-      {
-        now[v] = count++;
-      }
-      v = now[v];
-    }
-  }
-  FaceQuads kept = mesh;
-  for (Index v = 0; v < now.size(); ++v)
-  {
-    if (now[v] != kInvalidIndex)
-    {
-      kept.points[now[v]] = mesh.points[v];
-      kept.normals[now[v]] = mesh.normals[v];
-      kept.fitting[now[v]] = mesh.fitting[v];
-    }
-  }
-  kept.points.resize(count);
-  kept.normals.resize(count);
-  kept.fitting.resize(count);
-  mesh = std::move(kept);
-}
-
 FaceQuads makeQuads(const Mesh& face, const FaceGround& ground, const std::vector<Index>& pins)
 {
   FaceTriangles triangles = triangulateFace(face, ground);
   FaceQuads quads = ownPoints(ground, triangles, pairTriangles(triangles), pins);
   cleanUpQuads(quads, ground);
-  dropUnused(quads);
   return quads;
 }
 
@@ -162,26 +131,30 @@ ShapeSummary summarizeShapes(const FaceQuads& mesh)
   return result;
 }
 
-FaceFill toFill(const FaceQuads& quads, const std::vector<Index>& pins, Index vertexCount,
+/// Points that were dropped get no id.
+FaceFill toFill(const FaceQuads& mesh, const std::vector<Index>& pins, Index vertexCount,
   const FaceGround& ground)
 {
   FaceFill fill;
-  for (Index v = quads.pinCount; v < quads.points.size(); ++v)
-  {
-    const Vector3& p = quads.points[v];
-    const auto facing = ground.at(p, quads.normals[v], p);
-    const FaceGround::Spot spot = facing ? *facing : *ground.at(p, Vector3::Zero(), p);
-    fill.points.push_back(spot.point);
-    fill.sourceFace.push_back(spot.face);
-    fill.sourceWeights.push_back(spot.weights);
-  }
-  for (std::array<Index, 4> quad : quads.quads)
+  fill.quads = mesh.quads;
+  std::vector<Index> ids = pins;
+  ids.resize(mesh.points.size(), kInvalidIndex);
+  for (std::array<Index, 4>& quad : fill.quads)
   {
     for (Index& v : quad)
     {
-      v = v < quads.pinCount ? pins[v] : vertexCount + v - quads.pinCount;
+      if (ids[v] == kInvalidIndex)
+      {
+        const Vector3& p = mesh.points[v];
+        const auto facing = ground.at(p, mesh.normals[v], p);
+        const FaceGround::Spot spot = facing ? *facing : *ground.at(p, Vector3::Zero(), p);
+        ids[v] = vertexCount + static_cast<Index>(fill.points.size());
+        fill.points.push_back(spot.point);
+        fill.sourceFace.push_back(spot.face);
+        fill.sourceWeights.push_back(spot.weights);
+      }
+      v = ids[v];
     }
-    fill.quads.push_back(quad);
   }
   return fill;
 }

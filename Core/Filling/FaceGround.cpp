@@ -14,8 +14,8 @@ namespace quadrille
 namespace
 {
 
-/// Pins closer together than this share of the edge length make the quads near them smaller.
-constexpr double kFineSpacing = 0.8;
+/// Pins closer together than this share of the edge length make the quads near them smaller, by this factor at most.
+constexpr double kFineSpacing = 0.8, kSmallest = 0.05;
 /// By how much sizes grow with the distance from such pins.
 constexpr double kGrowthFromPins = 0.4;
 
@@ -137,7 +137,7 @@ void FaceGround::collectFinePins()
   {
     if (isPin(v) && spacing[v] < kFineSpacing * sizeAt(face_, v))
     {
-      finePins_.emplace_back(face_.position[v], spacing[v]);
+      finePins_.emplace_back(face_.position[v], std::max(spacing[v], kSmallest * sizeAt(face_, v)));
     }
   }
 }

@@ -81,10 +81,12 @@ private:
   bool isRemoved(Index h) const { return mesh().origin[h] == kInvalidIndex; }
   bool isInner(Index v) const { return onBoundary_[v] == 0; }
   /// Over the wanted length.
-  double lengthOf(Index h) const
+  double lengthBetween(Index a, Index b) const
   {
-    return sizedLength(mesh(), h) / (kTriangleEdge * ground_.edgeLength());
+    return (mesh().position[a] - mesh().position[b]).norm() /
+      (std::sqrt(sizeAt(mesh(), a) * sizeAt(mesh(), b)) * kTriangleEdge * ground_.edgeLength());
   }
+  double lengthOf(Index h) const { return lengthBetween(mesh().origin[h], mesh().target(h)); }
 
   double shapeOf(Index a, Index b, Index c) const
   {
@@ -182,12 +184,6 @@ private:
         after = a == u || b == u ? after : std::min(after, shapeOf(u, a, b));
       });
     return before < 0 ? after > before : isBetter(after, before);
-  }
-
-  double lengthBetween(Index a, Index b) const
-  {
-    return (mesh().position[a] - mesh().position[b]).norm() /
-      (std::sqrt(sizeAt(mesh(), a) * sizeAt(mesh(), b)) * kTriangleEdge * ground_.edgeLength());
   }
 
   /// Whatever becomes of the shapes. What can be in the way of a collapse along the boundary is only a vertex that

@@ -53,19 +53,14 @@ public:
   /// One pass over all quads; whether something was changed.
   bool run()
   {
-    const std::size_t pointCount = mesh_.points.size();
     bool any = false;
-    for (Index v = mesh_.pinCount; v < pointCount; ++v)
+    for (Index v = mesh_.pinCount; v < oldPointCount(); ++v)
     {
       any |= tryDoublet(v);
     }
     for (Index h = 0; h < isChanged_.size() * 4; ++h)
     {
       any |= tryCollapse(h) || tryRotateEdge(h) || tryInsert(h);
-    }
-    for (Index v = 0; v < pointCount; ++v)
-    {
-      any |= tryRotatePoint(v) || trySplit(v);
     }
     eraseIf(mesh_.quads, [](const Quad& quad) { return quad[0] == kInvalidIndex; });
     return any;
@@ -76,28 +71,6 @@ private:
   Index quadCount(Index v) const { return quadsAt_.size(v); }
 
   Index corner(Index h) const { return mesh_.quads[h / 4][h % 4]; }
-
-  /// The half-edges that leave a point, counterclockwise; of a pin from the boundary to the boundary.
-  std::vector<Index> fan(Index v) const
-  {
-    std::vector<Index> result;
-    if (quadCount(v) == 0)
-    {
-      return result;
-    }
-    Index first = *quadsAt_.begin(v);
-    for (const Index* h = quadsAt_.begin(v); h != quadsAt_.end(v); ++h)
-    {
-      first = topology_.twin[*h] == kInvalidIndex ? *h : first;
-    }
-    Index h = first;
-    do
-    {
-      result.push_back(h);
-      h = topology_.twin[previousInQuad(h)];
-    } while (h != kInvalidIndex && h != first);
-    return result;
-  }
 
   bool isFresh(Index v) const
   {
@@ -185,6 +158,7 @@ private:
   std::vector<Quad> quadsOf(const std::vector<Index>& ids) const
   {
     std::vector<Quad> quads;
+    quads.reserve(ids.size());
     for (const Index q : ids)
     {
       quads.push_back(mesh_.quads[q]);
@@ -273,13 +247,13 @@ private:
     }
     std::vector<Index> old;
     std::vector<Quad> made;
-    for (const Index g : fan(v))
+    for (const Index* g = quadsAt_.begin(v); g != quadsAt_.end(v); ++g)
     {
-      old.push_back(g / 4);
-      if (g != h)
+      old.push_back(*g / 4);
+      if (*g != h)
       {
-        made.push_back(mesh_.quads[g / 4]);
-        made.back()[g % 4] = kept;
+        made.push_back(mesh_.quads[*g / 4]);
+        made.back()[*g % 4] = kept;
       }
     }
     return improve(old, made);
@@ -358,76 +332,6 @@ private:
     mesh_.points.resize(count);
     mesh_.normals.resize(count);
     mesh_.fitting.resize(count);
-  }
-
-  /// The edges of a point come to join it with the opposite corners of its quads.
-  bool tryRotatePoint(Index v)
-  {
-    if (isPin(v) || quadCount(v) < 3 || !isFresh(v))
-    {
-      return false;
-    }
-    std::vector<Index> old;
-    std::vector<Quad> made;
-    const std::vector<Index> out = fan(v);
-    for (std::size_t i = 0; i < out.size(); ++i)
-    {
-      const Index last = out[(i + out.size() - 1) % out.size()];
-      old.push_back(out[i] / 4);
-      made.push_back({ v, corner(oppositeInQuad(last)), corner(nextInQuad(out[i])),
-        corner(oppositeInQuad(out[i])) });
-    }
-    return improve(old, made);
-  }
-
-  /// Some quads in a row at a point get a new one instead, and between the two comes another quad.
-  bool trySplit(Index v)
-  {
-    if (quadCount(v) < mesh_.fitting[v] + 0.5 || !isFresh(v))
-    {
-      return false;
-    }
-    const std::vector<Index> out = fan(v);
-    const std::size_t count = out.size();
-    for (std::size_t taken = 2; taken + (isPin(v) ? 0 : 2) <= count; ++taken)
-    {
-      for (std::size_t first = 0; first < (isPin(v) ? count - taken + 1 : count); ++first)
-      {
-        if (splitOff(v, out, first, taken))
-        {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  bool splitOff(Index v, const std::vector<Index>& out, std::size_t first, std::size_t taken)
-  {
-    const Index added = static_cast<Index>(mesh_.points.size());
-    std::vector<Index> old;
-    std::vector<Quad> made;
-    Vector3 sum = Vector3::Zero();
-    for (std::size_t i = 0; i < out.size(); ++i)
-    {
-      const Index h = out[(first + i) % out.size()];
-      old.push_back(h / 4);
-      made.push_back(mesh_.quads[h / 4]);
-      if (i < taken)
-      {
-        made.back()[h % 4] = added;
-        sum += mesh_.points[corner(oppositeInQuad(h))];
-      }
-    }
-    const Index start = corner(nextInQuad(out[first]));
-    const Index end = corner(previousInQuad(out[(first + taken - 1) % out.size()]));
-    made.push_back({ v, start, added, end });
-    mesh_.points.emplace_back((mesh_.points[v] + sum / static_cast<double>(taken)) / 2);
-    mesh_.normals.push_back(mesh_.normals[v]);
-    mesh_.fitting.push_back(4);
-    const bool isDone = improve(old, made);
-    resize(isDone ? added + 1 : added);
-    return isDone;
   }
 
   FaceQuads& mesh_;

@@ -165,8 +165,8 @@ private:
   struct Pentagon
   {
     Index i, j, k, a, d;
-    Index inner; ///< of the half-edges jk and ki the one between the quad's halves
-    Index own;   ///< the other one, by which the path may leave the half that it enters
+    Index inner;           ///< of the half-edges jk and ki the one between the quad's halves
+    Index own;             ///< the other one, by which the path may leave the half that it enters
     Quad quadOfA, quadOfD; ///< that are left where that edge's triangle gets the point a, or d
   };
 
