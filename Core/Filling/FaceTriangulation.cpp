@@ -19,7 +19,7 @@ namespace
 {
 
 /// Rounds after which triangulations of faces hardly change.
-constexpr int kRounds = 10;
+constexpr int kRemeshingRounds = 10;
 /// After this round only pins are left of the boundary.
 constexpr int kRoundOfPins = 2;
 /// Of two triangles that make a square quad of edge length 1.
@@ -27,7 +27,7 @@ constexpr double kTriangleEdge = 1.0746;
 /// Edges between these shares of the wanted length stay [Botsch and Kobbelt 2004].
 constexpr double kShort = 4.0 / 5, kLong = 4.0 / 3;
 /// A change may make triangles worse than they are down to this shape only (see triangleShape).
-constexpr double kSoundShape = 0.4;
+constexpr double kSoundTriangle = 0.4;
 /// Moves shorter than this share of the wanted length are not worth a search for the place below.
 constexpr double kLeastMove = 0.02;
 
@@ -55,7 +55,7 @@ public:
 
   FaceTriangles run()
   {
-    for (int round = 0; round < kRounds; ++round)
+    for (int round = 0; round < kRemeshingRounds; ++round)
     {
       collapseEdges();
       flipEdges();
@@ -68,7 +68,7 @@ public:
       relax();
     }
     collapseEdges();
-    for (int round = 0; round < kRounds; ++round)
+    for (int round = 0; round < kRemeshingRounds; ++round)
     {
       flipEdges();
       relax();
@@ -108,7 +108,7 @@ private:
 
   static bool isBetter(double after, double before)
   {
-    return after >= std::min(kSoundShape, before);
+    return after >= std::min(kSoundTriangle, before);
   }
 
   /// May the origin of h go for good, for the sake of where it stands?
@@ -139,7 +139,7 @@ private:
   void collapseEdges()
   {
     bool any = true;
-    for (int pass = 0; any && pass < kRounds; ++pass)
+    for (int pass = 0; any && pass < kRemeshingRounds; ++pass)
     {
       const std::vector<std::uint8_t> isTurnedOver = findTurnedOver();
       std::vector<std::pair<double, Index>> spare;
@@ -287,7 +287,7 @@ private:
       excess[v] -= wantedValence(v);
     }
     bool any = true;
-    for (int pass = 0; any && pass < kRounds; ++pass)
+    for (int pass = 0; any && pass < kRemeshingRounds; ++pass)
     {
       any = false;
       for (Index h = 0; h < mesh().halfEdgeCount(); ++h)
@@ -316,13 +316,13 @@ private:
                 d = mesh().origin[Mesh::previous(mesh().twin[h])];
     const double before = std::min(shapeOf(a, b, c), shapeOf(b, a, d));
     const double after = std::min(shapeOf(a, d, c), shapeOf(b, c, d));
-    if (before < kSoundShape && after < kSoundShape)
+    if (before < kSoundTriangle && after < kSoundTriangle)
     {
       return after > before + 1e-6; // else two flips could take turns
     }
     // Squares of excess - 1 and excess + 1 over those of excess.
     const double gain = 2 * (excess[a] + excess[b] - excess[c] - excess[d]) - 4;
-    return after >= kSoundShape && (before < kSoundShape || gain > 1e-6);
+    return after >= kSoundTriangle && (before < kSoundTriangle || gain > 1e-6);
   }
 
   void relax()

@@ -19,12 +19,12 @@ namespace
 {
 
 /// Passes over all quads; faces that are not done after so many hardly change any more.
-constexpr int kPasses = 20;
+constexpr int kCleanUpPasses = 20;
 /// Sweeps of smoothing after each pass, and at the end.
 constexpr int kSweeps = 2, kLastSweeps = 10;
 /// A change of the connectivity may make quads worse than they are down to this shape (see quadShape) only: smoothing
 /// raises it again.
-constexpr double kSoundShape = 0.1;
+constexpr double kSoundChange = 0.1;
 
 using Quad = std::array<Index, 4>;
 using Edge = std::pair<Index, Index>;
@@ -108,7 +108,7 @@ private:
   bool improve(const std::vector<Index>& old, const std::vector<Quad>& made)
   {
     return isBetter(old, made) && mayReplace(old, made) &&
-      worstShape(made) >= std::min(kSoundShape, worstShape(quadsOf(old))) && replace(old, made);
+      worstShape(made) >= std::min(kSoundChange, worstShape(quadsOf(old))) && replace(old, made);
   }
 
   bool isBetter(const std::vector<Index>& old, const std::vector<Quad>& made) const
@@ -345,7 +345,7 @@ private:
 void cleanUpQuads(FaceQuads& mesh, const FaceGround& ground)
 {
   bool any = true;
-  for (int pass = 0; any && pass < kPasses; ++pass)
+  for (int pass = 0; any && pass < kCleanUpPasses; ++pass)
   {
     relaxQuads(mesh, ground, kSweeps);
     any = QuadChanges(mesh).run();

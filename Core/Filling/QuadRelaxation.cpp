@@ -17,11 +17,11 @@ namespace
 
 /// Moves may make quads worse than they are down to this shape only; points with a worse one look for a better place
 /// than the mean of their neighbours.
-constexpr double kSoundShape = 0.6;
+constexpr double kSoundQuad = 0.6;
 /// Moves shorter than this share of the edges are not worth a search for the place below.
 constexpr double kLeastMove = 0.02;
 /// So many directions, and steps as shares of the mean length of their edges.
-constexpr int kDirections = 8;
+constexpr int kSearchDirections = 8;
 constexpr std::array<double, 3> kSteps{ 0.4, 0.15, 0.05 };
 
 class QuadRelaxation
@@ -48,7 +48,7 @@ public:
         continue;
       }
       moveToMean(v);
-      if (worstShapeAt(v) < kSoundShape)
+      if (worstShapeAt(v) < kSoundQuad)
       {
         moveToBest(v);
       }
@@ -115,7 +115,7 @@ private:
     {
       return;
     }
-    const double least = std::min(kSoundShape, worstShapeAt(v));
+    const double least = std::min(kSoundQuad, worstShapeAt(v));
     if (!tryMove(v, mean, least))
     {
       tryMove(v, (place + mean) / 2, least);
@@ -129,9 +129,9 @@ private:
     {
       const Vector3 place = mesh_.points[v];
       const Vector3 u = mesh_.normals[v].unitOrthogonal(), w = mesh_.normals[v].cross(u);
-      for (int i = 0; i < kDirections; ++i)
+      for (int i = 0; i < kSearchDirections; ++i)
       {
-        const double angle = 2 * kPi * i / kDirections;
+        const double angle = 2 * kPi * i / kSearchDirections;
         tryMove(v, place + step * edge * (std::cos(angle) * u + std::sin(angle) * w),
           worstShapeAt(v) + 1e-6);
       }

@@ -50,7 +50,7 @@ inline PinLoop polygonLoop(const std::vector<Vector2>& corners, double spacing, 
   PinLoop loop;
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
-    const Vector2 a = corners[i], b = corners[(i + 1) % corners.size()];
+    const Vector2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
     const int count =
       std::max(1, static_cast<int>(std::lround((b - a).norm() / spacing))) * (between + 1);
     for (int k = 0; k < count; ++k)
@@ -77,7 +77,7 @@ inline std::vector<Index> bridged(
   {
     for (std::size_t i = 0; i < ring.size(); ++i)
     {
-      const Vector2 p = points[ring[i]], q = points[ring[(i + 1) % ring.size()]];
+      const Vector2 &p = points[ring[i]], &q = points[ring[(i + 1) % ring.size()]];
       if (p == a || p == b || q == a || q == b)
       {
         continue;
@@ -100,7 +100,7 @@ inline std::vector<Index> bridged(
       {
         for (std::size_t k = 0; k < loops[l].size(); ++k)
         {
-          const Vector2 a = points[polygon[i]], b = points[loops[l][k]];
+          const Vector2 &a = points[polygon[i]], &b = points[loops[l][k]];
           bool blocked = (b - a).norm() >= best || crosses(a, b, polygon);
           for (const std::vector<Index>& ring : loops)
           {
@@ -186,6 +186,7 @@ inline FillCase planeCase(const std::vector<PinLoop>& loops)
     }
   }
   std::vector<Vector3> places;
+  places.reserve(points.size());
   for (const Vector2& p : points)
   {
     places.emplace_back(p.x(), p.y(), 0);
