@@ -39,15 +39,22 @@ bool canBeFilled(
     std::all_of(pins.begin(), pins.end(), [](std::size_t count) { return count >= 3; });
 }
 
-std::array<Index, 4> quadOfPins(const FaceGround& ground, Index pin)
+/// That are the boundary of a disc; none where their quad would be turned over, as where the disc is a sphere with a
+/// small hole.
+std::optional<FaceFill> quadOfPins(const Mesh& face, const FaceGround& ground, Index pin)
 {
   std::array<Index, 4> quad{};
-  for (Index& corner : quad)
+  std::array<Vector3, 4> corners;
+  Vector3 normal = Vector3::Zero();
+  for (std::size_t i = 0; i < 4; ++i)
   {
-    corner = pin;
+    quad[i] = pin;
+    corners[i] = face.position[pin];
+    normal += ground.normals()[pin];
     pin = ground.nextPin(pin);
   }
-  return quad;
+  return quadShape(corners, normal) > 0 ? std::optional<FaceFill>({ {}, {}, {}, { quad } })
+                                        : std::nullopt;
 }
 
 /// The quads with their own points; ids: of pins, first.
@@ -172,11 +179,12 @@ std::optional<FaceFill> fillFace(
   }
   const std::vector<Index> pins =
     idsWhere(face.vertexCount(), [&](Index v) { return ground.isPin(v); });
-  if (topology.eulerCharacteristic == 1 && pins.size() == 4)
+  const bool isQuad = topology.eulerCharacteristic == 1 && pins.size() == 4;
+  std::optional<FaceFill> best = isQuad ? quadOfPins(face, ground, pins[0]) : std::nullopt;
+  if (best)
   {
-    return FaceFill{ {}, {}, {}, { quadOfPins(ground, pins[0]) } };
+    return best;
   }
-  std::optional<FaceFill> best;
   ShapeSummary bestShapes;
   for (const double share : kTriedLengths)
   {

@@ -31,7 +31,7 @@ struct FaceFill
 /// number, and 4 at least.
 /// edgeLength: that the quads should have, > 0, in units of the mesh; times the face's sizes where it has some (see
 /// Mesh/Sizing.h). Near pins that stand closer together the quads are smaller.
-/// A disc with 4 pins becomes one quad. None where the pins or the face are not as said, or where all of the face has
+/// A disc with 4 pins becomes one quad, if that is not turned over. None where the pins or the face are not as said, or where all of the face has
 /// no area. The quads are always a manifold with the face's Euler characteristic. They may be turned over where pins
 /// are so far apart that the lines between them cross, as across a slot that is narrower than they are apart.
 std::optional<FaceFill> fillFace(
