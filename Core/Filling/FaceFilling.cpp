@@ -171,6 +171,10 @@ FaceFill toFill(const FaceQuads& mesh, const std::vector<Index>& pins, Index ver
 std::optional<FaceFill> fillFace(
   const Mesh& face, const std::vector<std::uint8_t>& isPin, double edgeLength)
 {
+  if (!validate(face).empty() || isPin.size() != face.vertexCount() || !(edgeLength > 0))
+  {
+    return std::nullopt;
+  }
   const FaceGround ground(face, isPin, edgeLength);
   const TopologySummary topology = summarizeTopology(face);
   if (!canBeFilled(topology, isPin, ground))
