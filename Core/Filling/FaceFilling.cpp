@@ -34,15 +34,22 @@ bool canBeFilled(
     std::all_of(pins.begin(), pins.end(), [](std::size_t count) { return count >= 3; });
 }
 
-std::array<Index, 4> quadOfPins(const FaceGround& ground, Index pin)
+/// That are the boundary of a disc; none where their quad would be turned over, as where the disc is a sphere with a
+/// small hole.
+std::optional<FaceFill> quadOfPins(const Mesh& face, const FaceGround& ground, Index pin)
 {
   std::array<Index, 4> quad{};
-  for (Index& corner : quad)
+  std::array<Vector3, 4> corners;
+  Vector3 normal = Vector3::Zero();
+  for (std::size_t i = 0; i < 4; ++i)
   {
-    corner = pin;
+    quad[i] = pin;
+    corners[i] = face.position[pin];
+    normal += ground.normals()[pin];
     pin = ground.nextPin(pin);
   }
-  return quad;
+  return quadShape(corners, normal) > 0 ? std::optional<FaceFill>({ {}, {}, {}, { quad } })
+                                        : std::nullopt;
 }
 
 /// The quads with their own points; ids: of pins, first.
@@ -142,6 +149,10 @@ FaceFill toFill(const FaceQuads& mesh, const std::vector<Index>& pins, Index ver
 std::optional<FaceFill> fillFace(
   const Mesh& face, const std::vector<std::uint8_t>& isPin, double edgeLength)
 {
+  if (!validate(face).empty() || isPin.size() != face.vertexCount() || !(edgeLength > 0))
+  {
+    return std::nullopt;
+  }
   const FaceGround ground(face, isPin, edgeLength);
   const TopologySummary topology = summarizeTopology(face);
   if (!canBeFilled(topology, isPin, ground))
@@ -150,9 +161,10 @@ std::optional<FaceFill> fillFace(
   }
   const std::vector<Index> pins =
     idsWhere(face.vertexCount(), [&](Index v) { return ground.isPin(v); });
-  if (topology.eulerCharacteristic == 1 && pins.size() == 4)
+  const bool isQuad = topology.eulerCharacteristic == 1 && pins.size() == 4;
+  if (std::optional<FaceFill> one = isQuad ? quadOfPins(face, ground, pins[0]) : std::nullopt)
   {
-    return FaceFill{ {}, {}, {}, { quadOfPins(ground, pins[0]) } };
+    return one;
   }
   const FaceQuads quads = makeQuads(face, ground, pins);
   return fillsFace(quads, pins, ground, topology.eulerCharacteristic)

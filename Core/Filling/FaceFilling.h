@@ -24,16 +24,20 @@ struct FaceFill
   std::vector<std::array<Index, 4>> quads;
 };
 
-/// Pairs the triangles of an isotropic triangulation [Botsch and Kobbelt 2004] and raises the shapes of the quads.
-/// face: a connected manifold with at least one boundary loop; several loops are holes, and it may have handles.
+/// Pairs the triangles of an isotropic triangulation [Botsch and Kobbelt 2004] and improves the quads by local changes
+/// and smoothing. One thread; the same bytes each time.
+/// face: a connected manifold without isolated vertices and with at least one boundary loop; several loops are holes,
+/// and it may have handles.
 /// isPin: #V, 1 for the vertices of the boundary that the quads have (only boundary vertices are pins). The boundary
 /// edges of the quads join consecutive pins of each loop. Each loop has at least 3 pins, all loops together an even
 /// number, and 4 at least.
 /// edgeLength: that the quads should have, > 0, in units of the mesh; times the face's sizes where it has some (see
-/// Mesh/Sizing.h). Near pins that stand closer together the quads are smaller.
-/// A disc with 4 pins becomes one quad. None where the pins or the face are not as said, or where all of the face has
-/// no area. The quads are always a manifold with the face's Euler characteristic. They may be turned over where pins
-/// are so far apart that the lines between them cross, as across a slot that is narrower than they are apart.
+/// Mesh/Sizing.h). Edges come to be about a twentieth shorter. Near pins that stand closer together the quads are
+/// smaller, and so are all where the wanted ones have too little room and are bad.
+/// A disc with 4 pins becomes one quad, if that is not turned over.
+/// None where the face or the pins are not as said. Else there is an answer: the quads are a manifold with the face's
+/// Euler characteristic, and that is checked. Single quads may be turned over where pins stand several edge lengths
+/// apart on a curved boundary, so that the lines between them leave the face.
 std::optional<FaceFill> fillFace(
   const Mesh& face, const std::vector<std::uint8_t>& isPin, double edgeLength);
 

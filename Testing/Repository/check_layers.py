@@ -26,6 +26,7 @@ MAY_INCLUDE = {
     "GridMap": ["Integers"],
     "Transfer": ["Hierarchy", "GridMap"],
     "Quads": ["Mesh"],
+    "Filling": ["Quads"],
     "Extraction": ["Quads"],
     "Elements": ["Quads"],
     "ForeignMaps": ["Extraction"],
