@@ -8,7 +8,9 @@
 #include "Filling/FaceTriangulation.h"
 #include "Filling/QuadCleanUp.h"
 #include "Filling/TrianglePairing.h"
+#include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
+#include "Quads/QuadShape.h"
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>
@@ -20,6 +22,12 @@ namespace quadrille
 
 namespace
 {
+
+/// Where quads are inverted, smaller ones are tried round them, as rings and strips have too little room for the wanted
+/// ones.
+constexpr int kMostSizes = 2;
+constexpr double kShrink = 0.8;
+constexpr double kShrinkRadius = 1.5; ///< edge lengths
 
 bool canBeFilled(
   const TopologySummary& topology, const std::vector<std::uint8_t>& isPin, const FaceGround& ground)
@@ -116,6 +124,20 @@ FaceQuads makeQuads(const Mesh& face, const FaceGround& ground, const std::vecto
   return quads;
 }
 
+std::vector<Vector3> invertedPlaces(const FaceQuads& mesh)
+{
+  std::vector<Vector3> places;
+  for (const std::array<Index, 4>& quad : mesh.quads)
+  {
+    if (!(shapeOfQuad(mesh, quad) > 0))
+    {
+      const std::array<Vector3, 4> corners = cornersOf(mesh.points, quad);
+      places.push_back((corners[0] + corners[1] + corners[2] + corners[3]) / 4);
+    }
+  }
+  return places;
+}
+
 /// Points that were dropped get no id.
 FaceFill toFill(const FaceQuads& mesh, const std::vector<Index>& pins, Index vertexCount,
   const FaceGround& ground)
@@ -166,10 +188,34 @@ std::optional<FaceFill> fillFace(
   {
     return one;
   }
-  const FaceQuads quads = makeQuads(face, ground, pins);
-  return fillsFace(quads, pins, ground, topology.eulerCharacteristic)
-    ? std::optional<FaceFill>(toFill(quads, pins, face.vertexCount(), ground))
-    : std::nullopt;
+  Mesh sized = face;
+  std::optional<FaceQuads> best;
+  std::vector<Vector3> places, bestPlaces; // of inverted quads
+  for (int i = 0; i <= kMostSizes; ++i)
+  {
+    if (i > 0)
+    {
+      scaleSizesNear(sized, places, kShrinkRadius * edgeLength, kShrink);
+      limitSizeGrowth(sized, edgeLength);
+    }
+    FaceQuads quads = makeQuads(face, FaceGround(sized, isPin, edgeLength), pins);
+    if (!fillsFace(quads, pins, ground, topology.eulerCharacteristic))
+    {
+      break;
+    }
+    places = invertedPlaces(quads);
+    if (!best || places.size() < bestPlaces.size())
+    {
+      best = std::move(quads);
+      bestPlaces = places;
+    }
+    if (places.empty())
+    {
+      break;
+    }
+  }
+  return best ? std::optional<FaceFill>(toFill(*best, pins, face.vertexCount(), ground))
+              : std::nullopt;
 }
 
 } // namespace quadrille

@@ -192,8 +192,10 @@ TEST(FaceFilling, SixPins)
 
 TEST(FaceFilling, DiscWithOddHole)
 {
-  expectGood(
-    planeCase({ circleLoop({ 0, 0 }, 1.8, 11, 3), circleLoop({ 0.1, 0 }, 0.8, 5, 3, true) }), 1);
+  // A ring as wide as a quad.
+  const FillCase c =
+    planeCase({ circleLoop({ 0, 0 }, 1.8, 11, 3), circleLoop({ 0.1, 0 }, 0.8, 5, 3, true) });
+  EXPECT_GT(checkFill(c, 1).worst, 0.3);
 }
 
 TEST(FaceFilling, FewPinsOnBothLoops)

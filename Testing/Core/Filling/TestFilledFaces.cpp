@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filling/FilledFaces.h"
+
+#include "QuadChecks.h"
+#include "TestMeshes.h"
+
+#include "Filling/FaceCurves.h"
+#include "Mesh/CutOpen.h"
+#include "Quads/QuadShape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace quadrille;
+
+namespace
+{
+
+constexpr double kThirtyDegrees = 0.5235987755982988;
+
+std::vector<std::uint8_t> none(const Mesh& mesh)
+{
+  return std::vector<std::uint8_t>(mesh.halfEdgeCount(), 0);
+}
+
+Mesh tetrahedron()
+{
+  return test::markFeatures(
+    test::makeMesh({ { 1, 1, 1 }, { -1, -1, 1 }, { -1, 1, -1 }, { 1, -1, -1 } },
+      { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } }),
+    kThirtyDegrees);
+}
+
+/// Quads of all faces of a mesh.
+FilledFaces fillAll(const Mesh& mesh, double edgeLength)
+{
+  FaceCurves curves(mesh, none(mesh), edgeLength);
+  EXPECT_TRUE(curves.chooseNumbers().empty());
+  FilledFaces filled = fillFaces(mesh, curves, edgeLength);
+  EXPECT_TRUE(filled.failedAt.empty());
+  return filled;
+}
+
+void expectOnFaces(const Mesh& mesh, const QuadMesh& quads)
+{
+  for (std::size_t p = 0; p < quads.points.size(); ++p)
+  {
+    Vector3 onFace = Vector3::Zero();
+    for (Index k = 0; k < 3; ++k)
+    {
+      onFace += quads.sourceWeights[p][k] * mesh.position[mesh.origin[3 * quads.sourceFace[p] + k]];
+    }
+    EXPECT_LT((onFace - quads.points[p]).norm(), 1e-9);
+  }
+}
+
+} // namespace
+
+TEST(CutOpen, PartsVerticesWhoseFacesHangTogetherNoMore)
+{
+  Mesh mesh = test::markFeatures(test::unitCube(2), kThirtyDegrees);
+  const Mesh before = mesh;
+  std::vector<std::uint8_t> isFeature = none(mesh);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    isFeature[h] = mesh.isFeature(h) ? 1 : 0;
+  }
+  const std::vector<Index> copied = cutOpen(mesh, isFeature);
+  // Six sides of nine vertices.
+  EXPECT_EQ(mesh.vertexCount(), 54U);
+  EXPECT_EQ(copied.size(), 54U - before.vertexCount());
+  for (Index i = 0; i < copied.size(); ++i)
+  {
+    EXPECT_EQ(mesh.position[before.vertexCount() + i], before.position[copied[i]]);
+  }
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    EXPECT_EQ(mesh.isBoundary(h), before.isFeature(h));
+    EXPECT_EQ(mesh.position[mesh.origin[h]], before.position[before.origin[h]]);
+  }
+}
+
+TEST(FaceCurves, SidesOfACubeAreFacesBetweenTwelveCurves)
+{
+  const Mesh mesh = test::markFeatures(test::unitCube(4), kThirtyDegrees);
+  const FaceCurves curves(mesh, none(mesh), 0.25);
+  EXPECT_EQ(curves.faceCount(), 6U);
+  ASSERT_EQ(curves.curves().size(), 12U);
+  for (const FaceCurve& curve : curves.curves())
+  {
+    EXPECT_FALSE(curve.closed);
+    EXPECT_NEAR(curve.length, 4, 1e-12);
+    EXPECT_NE(curve.faces[0], curve.faces[1]);
+  }
+}
+
+TEST(FaceCurves, OddFacesPassAnEdgeOn)
+{
+  const Mesh mesh = tetrahedron();
+  // Three times three edges round each of four faces.
+  FaceCurves curves(mesh, none(mesh), std::sqrt(8.0) / 3);
+  EXPECT_TRUE(curves.chooseNumbers().empty());
+  std::vector<std::size_t> around(4, 0);
+  std::size_t all = 0;
+  for (const FaceCurve& curve : curves.curves())
+  {
+    around[curve.faces[0]] += curve.edges;
+    around[curve.faces[1]] += curve.edges;
+    all += curve.edges;
+  }
+  for (const std::size_t edges : around)
+  {
+    EXPECT_EQ(edges % 2, 0U);
+  }
+  EXPECT_NEAR(static_cast<double>(all), 18, 3); // at most one for each face but one
+}
+
+TEST(FaceCurves, GivenPointsMakeAFaceOdd)
+{
+  const Mesh mesh = test::gridPlane(3, 3);
+  std::vector<std::uint8_t> isGiven = none(mesh);
+  std::vector<CurvePoint> points;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isBoundary(h))
+    {
+      isGiven[h] = 1;
+      points.push_back({ h, 0 });
+    }
+  }
+  ASSERT_EQ(points.size(), 12U);
+  FaceCurves curves(mesh, isGiven, 1);
+  curves.setGiven(points);
+  EXPECT_TRUE(curves.chooseNumbers().empty());
+  points.push_back({ points.front().h, 0.5 });
+  curves.setGiven(points);
+  EXPECT_EQ(curves.chooseNumbers(), std::vector<Index>{ 0 });
+}
+
+TEST(FilledFaces, ACubeIsClosedAndSharp)
+{
+  const Mesh mesh = test::markFeatures(test::unitCube(5), kThirtyDegrees);
+  const FilledFaces filled = fillAll(mesh, 0.25);
+  const test::IndependentCheck check(filled.quads);
+  EXPECT_EQ(check.boundaryEdges, 0U);
+  EXPECT_EQ(check.components, 1U);
+  EXPECT_TRUE(check.oriented);
+  EXPECT_TRUE(check.vertexManifold);
+  EXPECT_EQ(static_cast<long long>(filled.quads.points.size() + filled.quads.quads.size()) -
+      static_cast<long long>(check.edges),
+    2);
+  EXPECT_NEAR(static_cast<double>(filled.quads.quads.size()), 96, 10);
+  EXPECT_EQ(filled.quads.lines.size(), 48U);
+  EXPECT_TRUE(invertedQuads(filled.quads.points, filled.quads.quads).empty());
+  expectOnFaces(mesh, filled.quads);
+}
+
+TEST(FilledFaces, ATetrahedronIsClosedWithOddNumbers)
+{
+  const Mesh mesh = tetrahedron();
+  const FilledFaces filled = fillAll(mesh, std::sqrt(8.0) / 3);
+  const test::IndependentCheck check(filled.quads);
+  EXPECT_EQ(check.boundaryEdges, 0U);
+  EXPECT_TRUE(check.oriented);
+  EXPECT_TRUE(check.vertexManifold);
+  EXPECT_TRUE(invertedQuads(filled.quads.points, filled.quads.quads).empty());
+  expectOnFaces(mesh, filled.quads);
+}
+
+TEST(FilledFaces, GivenPointsComeFirstAndStay)
+{
+  const Mesh mesh = test::gridPlane(6, 6);
+  std::vector<std::uint8_t> isGiven = none(mesh);
+  std::vector<CurvePoint> points;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isBoundary(h))
+    {
+      isGiven[h] = 1;
+      points.push_back({ h, 0.25 });
+    }
+  }
+  FaceCurves curves(mesh, isGiven, 1);
+  curves.setGiven(points);
+  ASSERT_TRUE(curves.chooseNumbers().empty());
+  const FilledFaces filled = fillFaces(mesh, curves, 1);
+  ASSERT_TRUE(filled.failedAt.empty());
+  const test::IndependentCheck check(filled.quads);
+  EXPECT_EQ(check.boundaryEdges, points.size());
+  EXPECT_EQ(check.boundaryLoops, 1U);
+  ASSERT_EQ(filled.quads.lines.size(), points.size());
+  for (const QuadLine& line : filled.quads.lines)
+  {
+    EXPECT_LT(std::max(line.a, line.b), points.size());
+    EXPECT_FALSE(line.boundary); // there are quads beside
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    EXPECT_LT((filled.quads.points[i] - positionOf(mesh, points[i].onSurface())).norm(), 1e-12);
+  }
+  expectOnFaces(mesh, filled.quads);
+}
