@@ -20,8 +20,6 @@ namespace
 
 /// A curve that bends by more than this has a corner, where the quads have a point.
 constexpr double kCornerAngle = 0.5235987755982988; // 30 degrees
-/// A closed curve has so many edges at least, or a face inside it would have too few.
-constexpr std::size_t kLeastOfClosed = 4;
 
 Index beginOf(const Mesh& mesh, const CurveStep& step)
 {
@@ -101,8 +99,7 @@ FaceCurve FaceCurves::trace(CurveStep first, std::vector<std::uint8_t>& isDone) 
     curve.steps.push_back(*step);
     curve.length += sizedLength(mesh_, step->h) / edgeLength_;
   }
-  curve.closed = endOf(mesh_, curve.steps.back()) == beginOf(mesh_, first) &&
-    !isNode(beginOf(mesh_, first));
+  curve.closed = endOf(mesh_, curve.steps.back()) == beginOf(mesh_, first);
   return curve;
 }
 
@@ -123,6 +120,14 @@ void FaceCurves::findCurves()
         }
       }
     }
+  }
+  // One of those between the same ends may be a single edge.
+  std::set<std::pair<Index, Index>> ends;
+  for (FaceCurve& curve : curves_)
+  {
+    const Index a = beginOf(mesh_, curve.steps.front()), b = endOf(mesh_, curve.steps.back());
+    const bool isFirst = ends.insert(std::minmax(a, b)).second;
+    curve.least = curve.closed ? 3 : isFirst ? 1 : 2;
   }
 }
 
@@ -170,8 +175,8 @@ std::vector<Index> FaceCurves::endsOnGiven() const
     [&](Index h)
     {
       const std::vector<Index>& edges = at_[mesh_.origin[h]];
-      const auto given = std::count_if(
-        edges.begin(), edges.end(), [&](Index e) { return isGiven_[e] != 0; });
+      const auto given =
+        std::count_if(edges.begin(), edges.end(), [&](Index e) { return isGiven_[e] != 0; });
       return mesh_.isBoundary(h) && given > 0 && given < static_cast<long>(edges.size());
     });
 }
@@ -193,8 +198,8 @@ void FaceCurves::setGiven(std::vector<CurvePoint> points)
   {
     for (std::size_t i = 0; i < given_.size(); ++i)
     {
-      pairs.emplace_back((positionOf(mesh_, given_[i].onSurface()) - mesh_.position[mesh_.origin[h]])
-                           .squaredNorm(),
+      pairs.emplace_back(
+        (positionOf(mesh_, given_[i].onSurface()) - mesh_.position[mesh_.origin[h]]).squaredNorm(),
         h, i);
     }
   }
@@ -220,8 +225,7 @@ std::vector<Index> FaceCurves::chooseNumbers()
   }
   for (FaceCurve& curve : curves_)
   {
-    curve.edges = std::max(curve.closed ? kLeastOfClosed : std::size_t{ 1 },
-      static_cast<std::size_t>(std::llround(curve.length)));
+    curve.edges = std::max(curve.least, static_cast<std::size_t>(std::llround(curve.length)));
     for (const Index f : curve.faces)
     {
       if (f != kInvalidIndex)
@@ -249,6 +253,7 @@ std::vector<Index> FaceCurves::chooseNumbers()
     if (isTight && curve.edges < 3)
     {
       add(curve, 2);
+      curve.least = std::max(curve.least, curve.edges - 1);
     }
   }
   // A tree over the faces of each group, and over what is outside, where one is reached: from its leaves on an odd face
@@ -301,7 +306,7 @@ std::vector<Index> FaceCurves::chooseNumbers()
     {
       FaceCurve& curve = curves_[step->second];
       const bool isShortened =
-        static_cast<double>(curve.edges) > std::max(curve.length, curve.closed ? 4.0 : 1.0);
+        static_cast<double>(curve.edges) > curve.length && curve.edges > curve.least;
       add(curve, isShortened ? std::size_t(-1) : 1);
     }
   }

@@ -28,9 +28,10 @@ struct CurveStep
 struct FaceCurve
 {
   std::vector<CurveStep> steps;
-  bool closed = false;         ///< without a node
-  double length = 0;           ///< in edge lengths of the quads there
-  std::size_t edges = 1;       ///< that it gets
+  bool closed = false;          ///< ends where it begins
+  double length = 0;            ///< in edge lengths of the quads there
+  std::size_t edges = 1;        ///< that it gets
+  std::size_t least = 1;        ///< that it must have, or edges would lie on each other
   std::array<Index, 2> faces{}; ///< on both sides; kInvalidIndex on the other side of a boundary
 };
 
@@ -48,7 +49,10 @@ public:
   /// points: of the quads beside, on edges that are given. Where curves end on these the nearest point is moved to that
   /// place.
   void setGiven(std::vector<CurvePoint> points);
-  const std::vector<CurvePoint>& given() const { return given_; } ///< by the boundary's half-edges, t in [0, 1)
+  const std::vector<CurvePoint>& given() const
+  {
+    return given_;
+  } ///< by the boundary's half-edges, t in [0, 1)
 
   /// Numbers of edges near the lengths of the curves, such that as many faces as can be have an even number round them.
   /// Returns the others: no two of them can get an edge more by curves between them.
@@ -70,12 +74,12 @@ private:
   double edgeLength_;
   std::vector<Index> faceOf_;
   Index faces_ = 0;
-  std::vector<Index> edges_;                     ///< constrained, the lower half-edge of each
-  std::vector<std::vector<Index>> at_;           ///< of these, per vertex
+  std::vector<Index> edges_;           ///< constrained, the lower half-edge of each
+  std::vector<std::vector<Index>> at_; ///< of these, per vertex
   std::vector<FaceCurve> curves_;
   std::vector<CurvePoint> given_;
   std::vector<Index> groupOf_;
-  std::vector<std::uint8_t> reachesBoundary_;    ///< per group
+  std::vector<std::uint8_t> reachesBoundary_; ///< per group
 };
 
 } // namespace quadrille

@@ -42,21 +42,39 @@ public:
     }
     open();
     Index faces = 0;
-    const std::vector<Index> faceOf = faceComponents(opened_.mesh, faces);
+    const std::vector<Index> labels = faceComponents(opened_.mesh, faces);
     std::vector<std::vector<Index>> ofFace(faces);
-    for (Index f = 0; f < faceOf.size(); ++f)
+    for (Index f = 0; f < labels.size(); ++f)
     {
-      ofFace[faceOf[f]].push_back(f);
+      ofFace[labels[f]].push_back(f);
     }
-    for (const std::vector<Index>& triangles : ofFace)
+    std::vector<OpenedFace> opened;
+    std::vector<std::size_t> around;
+    for (std::vector<Index>& triangles : ofFace)
+    {
+      opened.push_back(faceOf(std::move(triangles)));
+      around.push_back(addLines(opened.back()));
+    }
+    joined_ = lines_;
+    for (std::size_t i = 0; i < opened.size(); ++i)
     {
       poll();
-      fill(triangles);
+      if (around[i] != 2)
+      {
+        fill(opened[i]);
+      }
     }
     return std::move(made_);
   }
 
 private:
+  /// Of the opened mesh.
+  struct OpenedFace
+  {
+    Mesh mesh;
+    std::vector<Index> triangles, vertices; ///< which of the opened mesh's these are
+  };
+
   struct EdgePoint
   {
     double t;
@@ -202,12 +220,12 @@ private:
     }
   }
 
-  /// One face, of these triangles of the opened mesh.
-  void fill(const std::vector<Index>& triangles)
+  OpenedFace faceOf(std::vector<Index> triangles) const
   {
-    Mesh face;
+    OpenedFace opened;
+    Mesh& face = opened.mesh;
     std::map<Index, Index> newVertex, newFace;
-    std::vector<Index> vertexOf;
+    std::vector<Index>& vertexOf = opened.vertices;
     for (const Index f : triangles)
     {
       const auto id = static_cast<Index>(newFace.size());
@@ -237,15 +255,20 @@ private:
           twin == kInvalidIndex ? kInvalidIndex : 3 * newFace[Mesh::face(twin)] + twin % 3);
       }
     }
+    opened.triangles = std::move(triangles);
+    return opened;
+  }
+
+  void fill(const OpenedFace& opened)
+  {
+    const Mesh& face = opened.mesh;
+    const std::vector<Index>& triangles = opened.triangles;
     std::vector<std::uint8_t> isPin(face.vertexCount(), 0);
+    std::vector<Index> pointOf(face.vertexCount(), kInvalidIndex);
     for (Index v = 0; v < face.vertexCount(); ++v)
     {
-      isPin[v] = face.twin.empty() || pointAt_[vertexOf[v]] == kInvalidIndex ? 0 : 1;
-    }
-    const std::size_t around = addLines(face, vertexOf);
-    if (around == 2)
-    {
-      return;
+      pointOf[v] = pointAt_[opened.vertices[v]];
+      isPin[v] = pointOf[v] == kInvalidIndex ? 0 : 1;
     }
     const std::optional<FaceFill> filled = fillFace(face, isPin, edgeLength_);
     if (!filled)
@@ -253,15 +276,12 @@ private:
       made_.failedAt.push_back(face.middleOfFace(0));
       return;
     }
-    std::vector<Index> pointOf(face.vertexCount() + filled->points.size(), kInvalidIndex);
-    for (Index v = 0; v < face.vertexCount(); ++v)
-    {
-      pointOf[v] = pointAt_[vertexOf[v]];
-    }
+    const std::size_t first = made_.quads.quads.size();
+    const auto firstInside = static_cast<Index>(made_.quads.points.size());
     for (std::size_t i = 0; i < filled->points.size(); ++i)
     {
-      pointOf[face.vertexCount() + i] =
-        addPoint(onMesh(triangles[filled->sourceFace[i]], filled->sourceWeights[i]));
+      pointOf.push_back(
+        addPoint(onMesh(triangles[filled->sourceFace[i]], filled->sourceWeights[i])));
     }
     for (std::array<Index, 4> quad : filled->quads)
     {
@@ -270,10 +290,77 @@ private:
         p = pointOf[p];
       }
       made_.quads.quads.push_back(quad);
-      made_.quads.quadSourceFace.push_back(made_.quads.sourceFace[quad[0]]);
+    }
+    const NearestTriangle nearest = trianglesOf(face);
+    const auto placeOf = [&](const Vector3& p)
+    {
+      const NearestTriangle::Place place = *nearest.at(p);
+      return onMesh(triangles[place.triangle], place.weights);
+    };
+    partJoined(first, firstInside, placeOf);
+    for (std::size_t q = first; q < made_.quads.quads.size(); ++q)
+    {
+      const std::array<Vector3, 4> corners = cornersOf(made_.quads.points, made_.quads.quads[q]);
+      const SurfacePoint middle = placeOf((corners[0] + corners[1] + corners[2] + corners[3]) / 4);
+      made_.quads.quadSourceFace.push_back(middle.face);
       made_.quads.quadSourceWeights.push_back({});
     }
-    placeQuads(face, triangles, made_.quads.quads.size() - filled->quads.size());
+  }
+
+  static NearestTriangle trianglesOf(const Mesh& face)
+  {
+    TriangleList list;
+    list.points = face.position.vector();
+    for (Index h = 0; h < face.halfEdgeCount(); h += 3)
+    {
+      list.corners.push_back({ face.origin[h], face.origin[h + 1], face.origin[h + 2] });
+    }
+    return NearestTriangle(std::move(list));
+  }
+
+  /// Where a curve comes back near itself, faces on both sides may join the same two of its points by an edge inside,
+  /// which would then have four quads: the later face gets three edges instead, and each quad there becomes two. first:
+  /// of its quads; firstInside: of its own points.
+  template <typename PlaceOf>
+  void partJoined(std::size_t first, Index firstInside, const PlaceOf& placeOf)
+  {
+    std::vector<std::array<Index, 4>>& quads = made_.quads.quads;
+    std::map<std::pair<Index, Index>, std::vector<Index>> inside; // half-edges
+    for (Index h = static_cast<Index>(4 * first); h < 4 * quads.size(); ++h)
+    {
+      const Index a = quads[h / 4][h % 4], b = quads[h / 4][nextInQuad(h) % 4];
+      if (std::max(a, b) < firstInside)
+      {
+        inside[std::minmax(a, b)].push_back(h);
+      }
+    }
+    for (const auto& [ends, halfEdges] : inside)
+    {
+      if (halfEdges.size() != 2 || joined_.insert(ends).second)
+      {
+        continue;
+      }
+      const Vector3 from = made_.quads.points[ends.first], to = made_.quads.points[ends.second];
+      const Index near = addPoint(placeOf(from + (to - from) / 3));
+      const Index far = addPoint(placeOf(to + (from - to) / 3));
+      for (const auto& [a, b] : { ends, std::pair(ends.second, ends.first) })
+      {
+        // The quad may have been parted before.
+        const auto isOne = [a = a, b = b](const std::array<Index, 4>& quad)
+        {
+          return std::any_of(quad.begin(), quad.end(),
+            [&](const Index& corner)
+            { return corner == a && quad[(&corner - quad.data() + 1) % 4] == b; });
+        };
+        const auto at =
+          std::find_if(quads.begin() + static_cast<std::ptrdiff_t>(first), quads.end(), isOne);
+        const auto i = static_cast<std::size_t>(std::find(at->begin(), at->end(), a) - at->begin());
+        const Index c = (*at)[(i + 2) % 4], d = (*at)[(i + 3) % 4];
+        const Index m = a == ends.first ? near : far, n = a == ends.first ? far : near;
+        *at = { a, m, c, d };
+        quads.push_back({ m, n, b, c });
+      }
+    }
   }
 
   /// A place in a triangle of the opened mesh.
@@ -296,31 +383,11 @@ private:
     return { source, there };
   }
 
-  /// The face of the surface under each quad from `first` on: the one nearest to its middle.
-  void placeQuads(const Mesh& face, const std::vector<Index>& triangles, std::size_t first)
-  {
-    TriangleList list;
-    list.points = face.position.vector();
-    for (Index h = 0; h < face.halfEdgeCount(); h += 3)
-    {
-      list.corners.push_back({ face.origin[h], face.origin[h + 1], face.origin[h + 2] });
-    }
-    const NearestTriangle nearest(std::move(list));
-    QuadMesh& quads = made_.quads;
-    for (std::size_t q = first; q < quads.quads.size(); ++q)
-    {
-      Vector3 middle = Vector3::Zero();
-      for (const Vector3& p : cornersOf(quads.points, quads.quads[q]))
-      {
-        middle += p / 4;
-      }
-      quads.quadSourceFace[q] = opened_.sourcePolygon[triangles[nearest.at(middle)->triangle]];
-    }
-  }
-
   /// Round one face; returns how many edges there are.
-  std::size_t addLines(const Mesh& face, const std::vector<Index>& vertexOf)
+  std::size_t addLines(const OpenedFace& opened)
   {
+    const Mesh& face = opened.mesh;
+    const std::vector<Index>& vertexOf = opened.vertices;
     std::size_t around = 0;
     for (Index h = 0; h < face.halfEdgeCount(); ++h)
     {
@@ -349,13 +416,14 @@ private:
   const FaceCurves& curves_;
   double edgeLength_;
   FilledFaces made_;
-  std::vector<Index> atVertex_;                        ///< #V: point of the quads there
-  std::map<Index, std::vector<EdgePoint>> onEdge_;     ///< by the lower half-edge
-  PreparedSurface opened_;                             ///< its source polygons are faces of the mesh
-  std::vector<Index> pointAt_;                         ///< #V of the opened mesh
-  std::vector<Index> from_;                            ///< #V of it: the half-edge of the boundary that leaves it
-  std::vector<Index> onSurface_;                       ///< the same, of the mesh
+  std::vector<Index> atVertex_;                    ///< #V: point of the quads there
+  std::map<Index, std::vector<EdgePoint>> onEdge_; ///< by the lower half-edge
+  PreparedSurface opened_;                         ///< its source polygons are faces of the mesh
+  std::vector<Index> pointAt_;                     ///< #V of the opened mesh
+  std::vector<Index> from_;      ///< #V of it: the half-edge of the boundary that leaves it
+  std::vector<Index> onSurface_; ///< the same, of the mesh
   std::set<std::pair<Index, Index>> lines_;
+  std::set<std::pair<Index, Index>> joined_; ///< points of curves that are joined by an edge
 };
 
 } // namespace

@@ -16,7 +16,8 @@ namespace quadrille
 struct Certificate
 {
   std::size_t triangles = 0;
-  std::size_t withoutMap = 0;    ///< triangles beside, in faces that were filled with quads without a map
+  std::size_t withoutMap =
+    0; ///< triangles beside, in faces that were filled with quads without a map
   std::size_t notPositive = 0;   ///< triangles with !(det > 0)
   std::size_t wrongTurns = 0;    ///< vertices whose winding is not the expected one
   std::size_t seamResiduals = 0; ///< edges whose two images differ by more than a transition

@@ -105,7 +105,7 @@ struct GridMapResult : MapWork
   MapReuse reuse;
   Status status;               ///< not ok: why and where; uv then holds the best that was reached
   std::vector<Index> failedAt; ///< coarse vertices around which the triangulation lacks freedom
-  FailedFaces failedFaces; ///< coarse faces where that was; empty where it was not in faces
+  FailedFaces failedFaces;     ///< coarse faces where that was; empty where it was not in faces
   std::vector<Index>
     failedIn; ///< a coarse vertex of each component that has no map, however it is tried
   /// Faces that no map with the field gives any area, as the arcs of features round patches leave none; not from the

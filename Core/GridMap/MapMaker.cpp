@@ -80,7 +80,7 @@ struct Component
   double triedRefinement = 1, refinement = 1;
   bool seamlessReused = false, integersReused = false, embedReused = false;
   Status status;
-  std::vector<Index> failedAt;    ///< vertices of the part
+  std::vector<Index> failedAt; ///< vertices of the part
   FailedFaces failedFaces;     ///< of the part
 
   const CarriedMap* earlier() const { return previous.knownFaces > 0 ? &previous : nullptr; }

@@ -35,7 +35,7 @@ struct SeamlessResult
   Status status;
   std::vector<Index> inverted; ///< faces left with !(det > 0)
   std::vector<Index>
-    failedAt; ///< vertices round which the triangulation, or the field, leaves no map
+    failedAt;              ///< vertices round which the triangulation, or the field, leaves no map
   FailedFaces failedFaces; ///< where these defects are
   /// Of these faces, that no map with this field gives any area: then they are those of the start, as nothing was
   /// untangled.

@@ -78,11 +78,11 @@ struct MapAttempt
   std::vector<std::uint8_t> coarseInteger; ///< #V of coarse.mesh, see integerVertices
   std::vector<Index> failedAt;             ///< vertices of the surface, where the status is not ok
   std::vector<Vector3> failedPlaces;       ///< their positions
-  FailedFaces failedFaces;                 ///< faces of the surface in which that was, where it was in faces
-  std::vector<Index> failedIn;       ///< a vertex of each component of the surface that has no map
-  std::size_t work = 0;              ///< see Base/WorkCount.h; of the map of the coarse level
-  std::size_t workOfCarrying = 0;    ///< of the way to the surface
-  bool isInterrupted = false;        ///< as the work was spent
+  FailedFaces failedFaces;        ///< faces of the surface in which that was, where it was in faces
+  std::vector<Index> failedIn;    ///< a vertex of each component of the surface that has no map
+  std::size_t work = 0;           ///< see Base/WorkCount.h; of the map of the coarse level
+  std::size_t workOfCarrying = 0; ///< of the way to the surface
+  bool isInterrupted = false;     ///< as the work was spent
   std::vector<Index> curvesFailedAt; ///< GridMapResult::curvesFailedAt, as vertices of the surface
 
   bool isCarried = false;                  ///< to the surface

@@ -105,10 +105,7 @@ public:
     }
     constexpr double rounding = 1e-9;
     const double t = segments_->on(nearest->triangle, place).weights[1];
-    return CurvePoint{ halfEdges_[nearest->triangle],
-      t < rounding         ? 0
-        : 1 - t < rounding ? 1
-                           : t };
+    return CurvePoint{ halfEdges_[nearest->triangle], t < rounding ? 0 : 1 - t < rounding ? 1 : t };
   }
 
 private:
@@ -221,7 +218,8 @@ private:
     {
       if (topology.twin[h] == kInvalidIndex)
       {
-        const Index a = restQuads_->quads[h / 4][h % 4], b = restQuads_->quads[h / 4][nextInQuad(h) % 4];
+        const Index a = restQuads_->quads[h / 4][h % 4],
+                    b = restQuads_->quads[h / 4][nextInQuad(h) % 4];
         neighbours[a][1] = b;
         neighbours[b][0] = a;
       }
@@ -279,8 +277,8 @@ private:
       {
         return std::nullopt;
       }
-      const bool isOdd = std::any_of(
-        odd.begin(), odd.end(), [&](Index f) { return groups[f] == found->second; });
+      const bool isOdd =
+        std::any_of(odd.begin(), odd.end(), [&](Index f) { return groups[f] == found->second; });
       return isOdd ? 0 : throughEven;
     };
     const std::optional<QuadPath> path = findStripPath(*restQuads_, starts, endCost);
@@ -305,8 +303,7 @@ private:
 
 } // namespace
 
-bool isCutAtFaces(
-  const SizedSurface& sized, const RemeshOptions& options, const History& history)
+bool isCutAtFaces(const SizedSurface& sized, const RemeshOptions& options, const History& history)
 {
   return !history.hasResult() && history.attempts() > 0 &&
     hasFailedInFaces(*sized.surface, options, history.last());
@@ -363,13 +360,13 @@ std::string filledText(const CutFaces& cut, std::size_t quads)
   return text.str();
 }
 
-CutFaces cutFailedFaces(const SizedSurface& whole, const MapAttempt& failed, int threads)
+CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int threads)
 {
   const std::vector<Index> labels = faceLabels(whole.surface->mesh);
-  const std::vector<std::uint8_t> isFailed =
-    failedLabels(whole.surface->mesh, labels, failed.failedFaces);
+  const std::vector<std::uint8_t> isFailed = failedLabels(whole.surface->mesh, labels, failed);
   CutFaces cut;
-  cut.count = static_cast<std::size_t>(std::count(isFailed.begin(), isFailed.end(), std::uint8_t{ 1 }));
+  cut.count =
+    static_cast<std::size_t>(std::count(isFailed.begin(), isFailed.end(), std::uint8_t{ 1 }));
   PreparedSurface opened = *whole.surface;
   const Mesh& mesh = whole.surface->mesh;
   const auto isOut = [&](Index h) { return isFailed[labels[Mesh::face(h)]] != 0; };

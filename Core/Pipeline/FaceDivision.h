@@ -22,16 +22,15 @@ struct CutFaces
   std::vector<std::uint8_t> isShared; ///< #H of its mesh: of its boundary, where the rest was
   double share = 0;                   ///< of the area over the sizes
   std::size_t count = 0;
-  std::optional<SizedPart> rest;      ///< none where these are all
+  std::optional<SizedPart> rest; ///< none where these are all
 };
 
 /// Whether the last attempt has failed in faces that can be cut out.
-bool isCutAtFaces(
-  const SizedSurface& sized, const RemeshOptions& options, const History& history);
+bool isCutAtFaces(const SizedSurface& sized, const RemeshOptions& options, const History& history);
 /// The same of one attempt without quads.
 bool hasFailedInFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const Attempt& attempt);
-CutFaces cutFailedFaces(const SizedSurface& whole, const MapAttempt& failed, int threads);
+CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int threads);
 
 /// The faces with quads that meet those of the rest.
 struct FilledPart

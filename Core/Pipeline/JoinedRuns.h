@@ -27,6 +27,7 @@ public:
   /// Faces that go without a map, and their quads, whose first points are points of the rest; that is there already.
   void addFilled(const CutFaces& cut, FilledPart filled);
 
+  const QuadMesh& quads() const { return joined_.quads; }
   bool hasQuads() const { return !joined_.quads.quads.empty(); }
   /// result: has what is told of the whole, to which comes what the parts tell, have taken and have made. Returns the
   /// surface of the parts that have quads. threads: 0: all.

@@ -159,7 +159,10 @@ History makeAttempts(Settled& settled, SizedSurface& sized, const RemeshOptions&
     }
   };
   const auto isOver = [&]
-  { return history.hasResult() || isDivided(sized, history) || isCutAtFaces(sized, options, history); };
+  {
+    return history.hasResult() || isDivided(sized, history) ||
+      isCutAtFaces(sized, options, history);
+  };
   if (!isOver())
   {
     beginAgain(withoutRest(settled, sized, options, store, first, history));
@@ -281,58 +284,73 @@ bool remeshDivided(const History& history, Settled& settled, SizedSurface& sized
   return true;
 }
 
-/// The faces in which the last attempt has failed are filled beside the quads of the rest; whether there are some then.
-bool remeshBesideFaces(const History& history, Settled& settled, SizedSurface& sized,
-  const Asked& asked, JoinedRuns& joined, RemeshResult& result, Failure& failure)
+/// Quads for faces that are cut out, beside those of the rest; whether there are some then.
+bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurface& sized,
+  const Asked& asked, RemeshResult& result, Failure& failure)
 {
-  countTry(Try::FilledFaces);
   RemeshOptions options = asked.options;
   options.smallDetails = SmallDetails::Keep; // those of the whole are settled
-  CutFaces cut = cutFailedFaces(sized, *history.last().map, options.threads);
   RemeshResult made;
   if (cut.rest)
   {
     const std::size_t work = boundOf(sized).work;
-    cut.rest->sized.work = std::max(work - std::min(work, history.work()),
-      leastOfPart(cut.rest->sized.surface->mesh.faceCount(), cut.rest->sized.targetQuads));
-    Settled own = settleDetails(cut.rest->sized, options, asked.store);
-    remeshSettled(own, cut.rest->sized, { asked.frame, options, asked.store, asked.quadsAlone }, made);
+    SizedSurface& rest = cut.rest->sized;
+    rest.work = std::max(work - std::min(work, history.work()),
+      leastOfPart(rest.surface->mesh.faceCount(), rest.targetQuads));
+    Settled own = settleDetails(rest, options, asked.store);
+    remeshSettled(own, rest, { asked.frame, options, asked.store, asked.quadsAlone }, made);
     settled.decimations += own.decimations;
     if (!made.status.ok())
     {
       failure = { made.status, made.failed.places };
-      joined.leaveOut(*cut.rest, made);
       return false;
     }
   }
   FilledPart filled = fillCutFaces(cut, cut.rest ? &cut.rest->sized.surface->mesh : nullptr,
     cut.rest ? &made.quads : nullptr, sized.edgeLength);
+  failure = { history.last().map->status, filled.failedAt };
   if (!filled.failedAt.empty())
   {
-    failure = { history.last().map->status, filled.failedAt };
     return false;
   }
-  countTryLed(Try::FilledFaces);
+  JoinedRuns joined(sized);
   if (cut.rest)
   {
     joined.add(*cut.rest, std::move(made));
   }
   joined.addFilled(cut, std::move(filled));
-  takeBefore(history, settled, sized, result);
-  sized.surface = std::make_shared<const PreparedSurface>(joined.take(result, options.threads));
-  if (const std::vector<Vector3> gaps = gapsIn(result.quads); !gaps.empty())
+  failure.places = gapsIn(joined.quads());
+  if (!failure.places.empty())
   {
-    failure = { history.last().map->status, gaps };
-    result.quads = {};
     return false;
   }
+  takeBefore(history, settled, sized, result);
+  sized.surface = std::make_shared<const PreparedSurface>(joined.take(result, options.threads));
   SmoothingOptions smoothing;
   smoothing.steps = options.smoothingSteps;
   smoothing.threads = options.threads;
   smoothQuads(sized.surface->mesh, result.quads, smoothing);
   untangleQuads(sized.surface->mesh, result.quads, { {}, options.threads });
   result.notices.push_back(filledText(cut, sized.targetQuads));
+  failure = {};
   return true;
+}
+
+/// The faces in which the last attempt has failed are filled beside the quads of the rest, or else all of them.
+bool remeshBesideFaces(const History& history, Settled& settled, SizedSurface& sized,
+  const Asked& asked, RemeshResult& result, Failure& failure)
+{
+  const auto with = [&](const FailedFaces& faces)
+  {
+    return remeshCut(cutFaces(sized, faces, asked.options.threads), history, settled, sized, asked,
+      result, failure);
+  };
+  FailedFaces all;
+  all.faces = idsWhere(sized.surface->mesh.faceCount(), [](Index) { return true; });
+  countTry(Try::FilledFaces);
+  const bool isFilled = with(history.last().map->failedFaces) || with(all);
+  countTryLed(Try::FilledFaces, isFilled ? 1 : 0);
+  return isFilled;
 }
 
 /// The attempts of a surface or, where they fail and it can be divided, of its parts.
@@ -356,8 +374,8 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   if (failed)
   {
     history.packMaps(sized.surface->mesh);
-    const auto remeshParted = isInParts ? remeshDivided : remeshBesideFaces;
-    if (remeshParted(history, settled, sized, asked, joined, result, failure))
+    if (isInParts ? remeshDivided(history, settled, sized, asked, joined, result, failure)
+                  : remeshBesideFaces(history, settled, sized, asked, result, failure))
     {
       return;
     }
