@@ -70,6 +70,28 @@ UntangleOptions fieldUntangleOptions(const ProgressCallback& progress)
   return options;
 }
 
+namespace
+{
+
+/// The same where a bound of work is reached; best: of earlier rounds, if there were some.
+UntangleResult untangleOrTell(const Mesh& mesh, const CrossField& field,
+  const UntangleProblem& problem, const Eigen::VectorXd& start, const UntangleOptions& options,
+  const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
+  const FieldUntangling& best)
+{
+  try
+  {
+    return untangle(problem, start, options);
+  }
+  catch (const UntanglingSpent& spent)
+  {
+    throw SpentInFaces(failedFacesOf(
+      mesh, best.uv.empty() ? findDefects(mesh, field, snap(spent.y)) : best.defects));
+  }
+}
+
+} // namespace
+
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const UntangleProblem& problem, const Eigen::VectorXd& start, int rounds, Try moreWeight,
   const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
@@ -96,7 +118,8 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
       countTry(moreWeight);
       stiffen(mesh, best.defects, stiffened.weight);
     }
-    UntangleResult attempt = untangle(stiffened, i > 0 ? fitReferences(stiffened) : start, options);
+    UntangleResult attempt = untangleOrTell(
+      mesh, field, stiffened, i > 0 ? fitReferences(stiffened) : start, options, snap, best);
     best.newtonSteps += attempt.steps;
     if (i > 0 && findDefects(mesh, field, snap(attempt.y)).none())
     {

@@ -8,6 +8,7 @@
 #include "Numerics/Untangler.h"
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -15,6 +16,14 @@ namespace quadrille
 
 /// The options of all maps that follow a field.
 UntangleOptions fieldUntangleOptions(const ProgressCallback& progress);
+
+/// Thrown in place of WorkSpent: where the map had not become one by then.
+class SpentInFaces : public WorkSpent
+{
+public:
+  explicit SpentInFaces(FailedFaces left) : faces(std::move(left)) {}
+  FailedFaces faces;
+};
 
 struct FieldUntangling
 {
@@ -28,7 +37,8 @@ struct FieldUntangling
 /// may end with a wrong one: then the references are fitted again with more weight round it [stiffening of
 /// Bommes et al. 2009], at most `rounds` times, until it winds rightly from the start. snap rounds
 /// unknowns to a map. The first triangles of the problem are the faces. maximumSteps: of Newton, of all attempts; 0 for
-/// no bound but that of each. The rounds count themselves as moreWeight.
+/// no bound but that of each. The rounds count themselves as moreWeight. Throws SpentInFaces where a bound of work is
+/// reached.
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const UntangleProblem& problem, const Eigen::VectorXd& start, int rounds, Try moreWeight,
   const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/FieldOfMap.h"
+#include "GridMap/FieldUntangling.h"
 
 #include "Base/Clock.h"
 #include "Base/Lists.h"
@@ -384,6 +385,33 @@ private:
     }
   }
 
+  /// Where a bound of work is reached, faces are told as those of the whole mesh.
+  static SeamlessResult mapOrTell(const MeshPart& part, const SeamlessOptions& options)
+  {
+    try
+    {
+      return computeSeamlessMap(part.mesh, part.field, options);
+    }
+    catch (const SpentInFaces& spent)
+    {
+      throw SpentInFaces(ofWhole(part, spent.faces));
+    }
+  }
+
+  static FailedFaces ofWhole(const MeshPart& part, FailedFaces failed)
+  {
+    for (Index& f : failed.faces)
+    {
+      f = part.face[f];
+    }
+    for (auto& [one, other] : failed.either)
+    {
+      one = part.face[one];
+      other = part.face[other];
+    }
+    return failed;
+  }
+
   /// The seamless map that has its share of `wanted`.
   bool mapSeamlessly(Component& component, double wanted, const ProgressCallback& progress)
   {
@@ -397,7 +425,7 @@ private:
     seamlessOptions.anisotropyLimit = options_.anisotropyLimit;
     seamlessOptions.maximumSteps = try_.maximumSteps;
     seamlessOptions.progress = progress;
-    SeamlessResult seamless = computeSeamlessMap(part.mesh, part.field, seamlessOptions);
+    SeamlessResult seamless = mapOrTell(part, seamlessOptions);
     result_.seamlessSteps += seamless.newtonSteps;
     component.seamlessReused = component.seamlessReused || seamless.startedFromPrevious;
     if (!seamless.status.ok())
@@ -541,15 +569,9 @@ private:
       {
         result_.failedAt.push_back(component.part.vertex[v]);
       }
-      for (const Index f : component.failedFaces.faces)
-      {
-        result_.failedFaces.faces.push_back(component.part.face[f]);
-      }
-      for (const auto& [one, other] : component.failedFaces.either)
-      {
-        result_.failedFaces.either.push_back(
-          { component.part.face[one], component.part.face[other] });
-      }
+      const FailedFaces failed = ofWhole(component.part, component.failedFaces);
+      append(result_.failedFaces.faces, failed.faces);
+      append(result_.failedFaces.either, failed.either);
       if (component.status.ok())
       {
         continue;

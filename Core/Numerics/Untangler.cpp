@@ -119,6 +119,7 @@ private:
   double total(const std::vector<Jacobian>& jacobians) const;
   void assemble();
   double step();
+  void countStep(std::size_t units) const;
   void measure();
 
   const UntangleProblem& problem_;
@@ -249,6 +250,18 @@ double Minimizer::step()
   return 0;
 }
 
+void Minimizer::countStep(std::size_t units) const
+{
+  try
+  {
+    countWork(units);
+  }
+  catch (const WorkSpent&)
+  {
+    throw UntanglingSpent(y_);
+  }
+}
+
 UntangleResult Minimizer::run()
 {
   measure();
@@ -270,7 +283,7 @@ UntangleResult Minimizer::run()
     const auto done = static_cast<std::size_t>(kWorkOfTriangle * static_cast<double>(result.steps) *
         static_cast<double>(system_.triangles()) +
       kWorkOfMegaflop * 1e-6 * system_.factorFlops());
-    countWork(done - result.work);
+    countStep(done - result.work);
     result.work = done;
     // A smaller epsilon can set a stalled run going again; without one it has converged.
     const bool last = energy_.epsilon <= 0.1 * options_.minimumDeterminant;

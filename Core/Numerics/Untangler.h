@@ -6,6 +6,7 @@
 
 #include "Base/Progress.h"
 #include "Base/Types.h"
+#include "Base/WorkCount.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -66,6 +68,14 @@ struct UntangleResult
   /// As counted by countWork(), of the triangles and of the factorizations: global unknowns, as surfaces of high genus
   /// have, fill the factor, and these then take far more than the triangles.
   std::size_t work = 0;
+};
+
+/// Thrown by untangle() in place of WorkSpent: how far it came.
+class UntanglingSpent : public WorkSpent
+{
+public:
+  explicit UntanglingSpent(Eigen::VectorXd last) : y(std::move(last)) {}
+  Eigen::VectorXd y; ///< the unknowns
 };
 
 /// The unknowns that minimize sum weight |J - 1|^2, whatever the signs of the determinants (the Poisson

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Attempt.h"
+#include "GridMap/FieldUntangling.h"
 
 #include "Base/Lists.h"
 #include "Base/WorkCount.h"
@@ -110,6 +111,27 @@ GridMapResult computeMap(RunContext& run, const PlannedSurface& surface, const H
   return map;
 }
 
+FailedFaces onFinest(const FailedFaces& failed, const Level& coarse)
+{
+  const std::vector<Index>& fineFace = coarse.fineFace;
+  FailedFaces finest;
+  for (const Index f : failed.faces)
+  {
+    if (f < fineFace.size()) // others are of the outset
+    {
+      finest.faces.push_back(fineFace[f]);
+    }
+  }
+  for (const auto& [one, other] : failed.either)
+  {
+    if (std::max(one, other) < fineFace.size())
+    {
+      finest.either.push_back({ fineFace[one], fineFace[other] });
+    }
+  }
+  return finest;
+}
+
 /// What is left of a map on the coarse level.
 void recordCoarse(
   const PlannedSurface& surface, const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
@@ -142,21 +164,7 @@ void recordCoarse(
     made.collapsed = map.collapsedFaces > 0;
     made.failedPlaces = positionsOf(levels.coarse.mesh, map.failedAt);
     made.failedAt = onFinest(map.failedAt, levels.coarse);
-    const std::vector<Index>& fineFace = levels.coarse.fineFace;
-    for (const Index f : map.failedFaces.faces)
-    {
-      if (f < fineFace.size()) // others are of the outset
-      {
-        made.failedFaces.faces.push_back(fineFace[f]);
-      }
-    }
-    for (const auto& [one, other] : map.failedFaces.either)
-    {
-      if (std::max(one, other) < fineFace.size())
-      {
-        made.failedFaces.either.push_back({ fineFace[one], fineFace[other] });
-      }
-    }
+    made.failedFaces = onFinest(map.failedFaces, levels.coarse);
     made.failedIn = onFinest(map.failedIn.empty() ? map.failedAt : map.failedIn, levels.coarse);
   }
 }
@@ -408,9 +416,13 @@ std::shared_ptr<MapAttempt> makeCoarseMap(RunContext& run, const PlannedSurface&
     made->work = scope.done();
     recordCoarse(surface, levels, map, *made);
   }
-  catch (const WorkSpent&)
+  catch (const WorkSpent& spent)
   {
     interrupt(levels, allowance, *made);
+    if (const auto* inFaces = dynamic_cast<const SpentInFaces*>(&spent))
+    {
+      made->failedFaces = onFinest(inFaces->faces, levels.coarse);
+    }
     const std::size_t faces = levels.coarse.mesh.faceCount();
     made->stages.add("interrupted", secondsNow() - start, faces, faces);
   }

@@ -303,22 +303,34 @@ private:
 
 } // namespace
 
-bool isCutAtFaces(const SizedSurface& sized, const RemeshOptions& options, const History& history)
+bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
 {
-  return !history.hasResult() && history.attempts() > 0 &&
-    hasFailedInFaces(*sized.surface, options, history.last());
-}
-
-bool hasFailedInFaces(
-  const PreparedSurface& surface, const RemeshOptions& options, const Attempt& attempt)
-{
-  if (!surface.facets.isDesigned || options.preview || options.method != MapMethod::ScaleAware ||
-    attempt.map->failedFaces.empty() || isTooLarge(attempt))
+  if (!surface.facets.isDesigned || options.preview || options.method != MapMethod::ScaleAware)
   {
     return false;
   }
   const std::vector<Index> labels = faceLabels(surface.mesh);
   return std::any_of(labels.begin(), labels.end(), [](Index label) { return label > 0; });
+}
+
+bool isCutAtFaces(const SizedSurface& sized, const RemeshOptions& options, const History& history)
+{
+  return !history.hasResult() && !history.failedFaces().empty() && !isTooLarge(history.last()) &&
+    mayCutFaces(*sized.surface, options);
+}
+
+double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed)
+{
+  const std::vector<Index> labels = faceLabels(surface.mesh);
+  const std::vector<std::uint8_t> isFailed = failedLabels(surface.mesh, labels, failed);
+  double all = 0, out = 0;
+  for (Index f = 0; f < surface.mesh.faceCount(); ++f)
+  {
+    const double area = sizedArea(surface.mesh, f);
+    all += area;
+    out += isFailed[labels[f]] != 0 ? area : 0;
+  }
+  return out / all;
 }
 
 std::vector<Vector3> gapsIn(const QuadMesh& quads)

@@ -25,11 +25,12 @@ struct CutFaces
   std::optional<SizedPart> rest; ///< none where these are all
 };
 
-/// Whether the last attempt has failed in faces that can be cut out.
+/// Whether a designed surface has several faces.
+bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options);
+/// Whether attempts have ended without quads, and a map has failed in faces that can be cut out.
 bool isCutAtFaces(const SizedSurface& sized, const RemeshOptions& options, const History& history);
-/// The same of one attempt without quads.
-bool hasFailedInFaces(
-  const PreparedSurface& surface, const RemeshOptions& options, const Attempt& attempt);
+/// The area of the faces in which a map has failed over that of the surface.
+double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed);
 CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int threads);
 
 /// The faces with quads that meet those of the rest.

@@ -10,6 +10,10 @@ namespace quadrille
 {
 void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
 {
+  if (map->status.ok() || !map->failedFaces.empty())
+  {
+    failedFaces_ = map->failedFaces;
+  }
   if (roundIsOver_)
   {
     round_.clear();

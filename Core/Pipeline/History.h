@@ -59,6 +59,8 @@ public:
   void beginLastResort();
   /// What the map of the next attempt may take.
   std::size_t allowance() const;
+  /// Of the last map that has failed in faces; empty where none has, or a later one is a map.
+  const FailedFaces& failedFaces() const { return failedFaces_; }
   /// Of all attempts, the first one's "first".
   const std::vector<std::string>& steps() const { return steps_; }
   int replays() const { return replays_; } ///< maps that were carried to the surface
@@ -88,6 +90,7 @@ private:
 
   Attempt last_, best_; ///< of the round
   Attempt result_;
+  FailedFaces failedFaces_;
   bool roundIsOver_ = true;
   std::vector<Summary> round_;
   std::vector<std::string> steps_;

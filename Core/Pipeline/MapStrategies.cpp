@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/FaceDivision.h"
 #include "Pipeline/Strategies.h"
 #include "Requests/Guides.h"
 
@@ -20,6 +21,8 @@ constexpr std::size_t kManyFailed = 100;
 /// A failure at no place in particular is worth another try with more vertices only where it took less than this part
 /// of the bound of work: integers that are searched for long and not found are a matter of features.
 constexpr double kCheapFailure = 0.25;
+/// Of the surface: faces with less area are cut out before more vertices are tried, of which a map of all takes longer.
+constexpr double kLittleArea = 0.02;
 /// Rings of intermediate vertices that are kept round a vertex that the map failed at.
 constexpr int kFreedomRings = 2;
 
@@ -93,6 +96,12 @@ std::optional<Plan> moreFreedom(const AttemptFailure& failure)
   const std::size_t times = history.trailing("more freedom");
   if (last.map->status.ok() || last.map->hopeless || times == failure.bound ||
     (times > 0 && failed >= kManyFailed && 2 * failed > history.failedBefore()))
+  {
+    return std::nullopt;
+  }
+  if (isLeftToFaces(failure) &&
+    (times > 0 ||
+      shareOfFailed(*failure.run.surface.surface, history.failedFaces()) <= kLittleArea))
   {
     return std::nullopt;
   }

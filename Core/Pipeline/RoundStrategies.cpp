@@ -269,13 +269,6 @@ std::string borderNotice(const RunContext& run, const Mesh& mesh, const Plan& pl
   return text.str();
 }
 
-/// Faces without a map are filled with quads later, and keep their features.
-bool isLeftToFaces(const AttemptFailure& failure)
-{
-  return failure.withoutQuads && !failure.history.hasResult() &&
-    hasFailedInFaces(*failure.run.surface.surface, failure.run.options, failure.attempt);
-}
-
 /// The half-edges that `isOne` says so of.
 std::vector<Index> allOf(const Mesh& mesh, bool (*isOne)(const Mesh&, Index))
 {
@@ -292,6 +285,13 @@ std::vector<Index> allOf(const Mesh& mesh, bool (*isOne)(const Mesh&, Index))
 }
 
 } // namespace
+
+bool isLeftToFaces(const AttemptFailure& failure)
+{
+  return failure.withoutQuads && !failure.history.hasResult() &&
+    !failure.history.failedFaces().empty() &&
+    mayCutFaces(*failure.run.surface.surface, failure.run.options) && !isTooLarge(failure.attempt);
+}
 
 bool isTooLarge(const Attempt& attempt)
 {

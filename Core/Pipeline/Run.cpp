@@ -348,7 +348,7 @@ bool remeshBesideFaces(const History& history, Settled& settled, SizedSurface& s
   FailedFaces all;
   all.faces = idsWhere(sized.surface->mesh.faceCount(), [](Index) { return true; });
   countTry(Try::FilledFaces);
-  const bool isFilled = with(history.last().map->failedFaces) || with(all);
+  const bool isFilled = with(history.failedFaces()) || with(all);
   countTryLed(Try::FilledFaces, isFilled ? 1 : 0);
   return isFilled;
 }

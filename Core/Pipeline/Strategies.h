@@ -35,7 +35,7 @@ struct AttemptFailure
 
 /// Where the coarse map fails: keeps the intermediate vertices near those that it failed at, and raises the budget by
 /// their number and a half. Where the coarse level has all of the intermediate one already, both get about twice as
-/// many. Bound: times one after the other.
+/// many. Not where faces of little area can be cut out instead. Bound: times one after the other.
 std::optional<Plan> moreFreedom(const AttemptFailure& failure);
 
 /// Where a map was made by leaving curves out, vertices round the places where it could not be made with them are kept
@@ -89,6 +89,9 @@ std::optional<Plan> noBorders(const AttemptFailure& failure);
 
 /// Calls the plan by what has made it.
 void setStep(Plan& plan, Try which);
+
+/// Faces without a map are filled with quads later, and keep their features (see FaceDivision.h).
+bool isLeftToFaces(const AttemptFailure& failure);
 
 /// Whether a limit of the user stands in the way, which features have no part in.
 bool isTooLarge(const Attempt& attempt);
