@@ -406,6 +406,7 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
   const bool hasRest = cut.count < isFailed.size();
   std::vector<ComponentPart> parts = splitSurface(opened, partOfFace, hasRest ? 2 : 1, threads);
   cut.faces = std::move(parts[0].surface);
+  cut.curves = std::move(parts[0].curves);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     if (isOut(h))

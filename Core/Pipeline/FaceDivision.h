@@ -20,6 +20,7 @@ struct CutFaces
 {
   PreparedSurface faces;              ///< that go without a map, with the features between them
   std::vector<std::uint8_t> isShared; ///< #H of its mesh: of its boundary, where the rest was
+  std::vector<Index> curves;          ///< which of the whole's begin on them
   double share = 0;                   ///< of the area over the sizes
   std::size_t count = 0;
   std::optional<SizedPart> rest; ///< none where these are all

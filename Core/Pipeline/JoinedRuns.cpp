@@ -267,13 +267,8 @@ void JoinedRuns::leaveOut(const SizedPart& part, const RemeshResult& made)
   addLog(made, joined_);
   targetQuads_ -= static_cast<long long>(part.sized.targetQuads);
   surface_.unusedValences += surface.valenceRequests.size();
-  for (std::size_t i = 0; i < part.curves.size(); ++i)
-  {
-    CurveOutcome& curve = joined_.curves[part.curves[i]];
-    curve.why = "its connected component has no quads: " + made.status.message;
-    curve.start = surface.curves[i].points.front();
-    curve.end = surface.curves[i].points.back();
-  }
+  tellUnmet(
+    surface.curves, part.curves, "its connected component has no quads: " + made.status.message);
   FailedParts failed;
   failed.components = surface.components;
   failed.share = 1;
@@ -295,6 +290,8 @@ void JoinedRuns::addFilled(const CutFaces& cut, FilledPart filled)
   joined_.turns.resize(joined_.turns.size() + surface.mesh.vertexCount());
   joined_.certificate.withoutMap += surface.mesh.faceCount();
   surface_.unusedValences += surface.valenceRequests.size();
+  tellUnmet(surface.curves, cut.curves,
+    "it begins on a face between sharp edges that has no map; ask for more quads");
   addQuadMesh(filled.quads, faces, all);
   // Points of the rest stand for those that lie on them.
   std::vector<Index> newId(all.points.size());
@@ -337,6 +334,19 @@ void JoinedRuns::addFilled(const CutFaces& cut, FilledPart filled)
   added.valenceRequests.clear();
   added.sectorRequests.clear();
   appendSurface(added, surface_);
+}
+
+/// curves: of a part; ids: of the whole.
+void JoinedRuns::tellUnmet(
+  const std::vector<CurveRequest>& curves, const std::vector<Index>& ids, const std::string& why)
+{
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    CurveOutcome& curve = joined_.curves[ids[i]];
+    curve.why = why;
+    curve.start = curves[i].points.front();
+    curve.end = curves[i].points.back();
+  }
 }
 
 /// failed: of the part.

@@ -36,6 +36,8 @@ public:
   void takeLog(RemeshResult& result);
 
 private:
+  void tellUnmet(
+    const std::vector<CurveRequest>& curves, const std::vector<Index>& ids, const std::string& why);
   void addFailed(const SizedPart& part, const FailedParts& failed);
   void addMap(RunMap& made);
   void addQuads(const RunQuads& made);
