@@ -8,8 +8,8 @@
 #include "Assembly/JointSheets.h"
 #include "Assembly/SheetBorders.h"
 #include "Assembly/SheetJoints.h"
-#include "Quads/StripInsertion.h"
 #include "Pipeline/Pipeline.h"
+#include "Quads/StripInsertion.h"
 
 #include <cstddef>
 #include <map>

@@ -19,7 +19,7 @@ namespace
 {
 
 /// A curve that bends by more than this has a corner, where the quads have a point.
-constexpr double kCornerAngle = 0.5235987755982988; // 30 degrees
+constexpr double kCurveCorner = 0.5235987755982988; // 30 degrees
 
 Index beginOf(const Mesh& mesh, const CurveStep& step)
 {
@@ -70,7 +70,7 @@ bool FaceCurves::isNode(Index v) const
   const auto outgoing = [&](Index h) -> Vector3
   { return mesh_.origin[h] == v ? mesh_.edgeVector(h) : Vector3(-mesh_.edgeVector(h)); };
   const Vector3 a = outgoing(edges[0]), b = -outgoing(edges[1]);
-  return a.dot(b) < std::cos(kCornerAngle) * a.norm() * b.norm();
+  return a.dot(b) < std::cos(kCurveCorner) * a.norm() * b.norm();
 }
 
 std::optional<CurveStep> FaceCurves::stepAfter(const CurveStep& step) const

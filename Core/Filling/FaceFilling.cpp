@@ -26,7 +26,7 @@ namespace
 /// Where quads are inverted, smaller ones are tried round them, as rings and strips have too little room for the wanted
 /// ones.
 constexpr int kMostSizes = 2;
-constexpr double kShrink = 0.8;
+constexpr double kShrinkInFace = 0.8;
 constexpr double kShrinkRadius = 1.5; ///< edge lengths
 
 bool canBeFilled(
@@ -195,7 +195,7 @@ std::optional<FaceFill> fillFace(
   {
     if (i > 0)
     {
-      scaleSizesNear(sized, places, kShrinkRadius * edgeLength, kShrink);
+      scaleSizesNear(sized, places, kShrinkRadius * edgeLength, kShrinkInFace);
       limitSizeGrowth(sized, edgeLength);
     }
     FaceQuads quads = makeQuads(face, FaceGround(sized, isPin, edgeLength), pins);

@@ -32,7 +32,7 @@ namespace
 {
 
 /// Points of the quads on the boundary lie on that of the faces, up to rounding; in edge lengths.
-constexpr double kSamePlace = 1e-6;
+constexpr double kSameBoundary = 1e-6;
 /// Quads get so many strips at most.
 constexpr std::size_t kMostStrips = 100;
 
@@ -228,7 +228,7 @@ private:
     for (const auto& [p, beside] : neighbours)
     {
       const auto place = boundary_->at(
-        points[p], { points[beside[0]], points[beside[1]] }, kSamePlace * edgeLength_);
+        points[p], { points[beside[0]], points[beside[1]] }, kSameBoundary * edgeLength_);
       if (place)
       {
         points_.push_back(p);
@@ -305,7 +305,12 @@ private:
 
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
 {
-  if (!surface.facets.isDesigned || options.preview || options.method != MapMethod::ScaleAware)
+  const bool isAsked = !surface.valenceRequests.empty() || !surface.sectorRequests.empty() ||
+    !surface.strokeFaces.empty() || !surface.strokes.empty() || !surface.curves.empty() ||
+    !surface.seams.empty() || !surface.straight.empty() || surface.regularElsewhere ||
+    surface.regularOnFeatures;
+  if (isAsked || !surface.facets.isDesigned || options.preview ||
+    options.method != MapMethod::ScaleAware)
   {
     return false;
   }

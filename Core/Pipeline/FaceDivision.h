@@ -26,7 +26,7 @@ struct CutFaces
   std::optional<SizedPart> rest; ///< none where these are all
 };
 
-/// Whether a designed surface has several faces.
+/// Whether a designed surface has several faces, and nothing is asked for that quads without a map may not have.
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options);
 /// Whether attempts have ended without quads, and a map has failed in faces that can be cut out.
 bool isCutAtFaces(const SizedSurface& sized, const RemeshOptions& options, const History& history);

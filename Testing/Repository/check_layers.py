@@ -33,7 +33,7 @@ MAY_INCLUDE = {
     "Evaluation": ["GridMap", "Extraction"],
     "Export": ["Base"],  # files need no more than the elements
     "Import": ["Base"],  # readers, for programs and Python alike
-    "Pipeline": ["Prepare", "Details", "Sizes", "Transfer", "Evaluation"],  # one surface, as a whole
+    "Pipeline": ["Prepare", "Details", "Sizes", "Transfer", "Filling", "Evaluation"],  # one surface, as a whole
     "Symmetry": ["Pipeline"],  # ways that make several runs, or one of another surface
     "Assembly": ["Pipeline"],
     "Pieces": ["Pipeline"],

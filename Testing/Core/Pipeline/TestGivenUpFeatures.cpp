@@ -10,6 +10,9 @@
 #include "StaggeredTube.h"
 #include "TestMeshes.h"
 
+#include "Mesh/Topology.h"
+#include "Quads/QuadTopology.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -141,7 +144,7 @@ TEST(GivenUpFeatures, BordersOfPatchesYieldWhereTheyMay)
 }
 
 /// The same borders as edges of a design.
-TEST(GivenUpFeatures, EdgesOfADesignYield)
+TEST(GivenUpFeatures, FacesOfADesignAreFilled)
 {
   const test::PatchedMesh tube = test::staggeredTube(0.02);
   SurfaceInput input = test::toInput(tube.mesh);
@@ -166,8 +169,22 @@ TEST(GivenUpFeatures, EdgesOfADesignYield)
     return std::any_of(result.notices.begin(), result.notices.end(),
       [&](const std::string& text) { return text.find(words) != std::string::npos; });
   };
-  EXPECT_TRUE(tells("of CAD edges"));
+  EXPECT_TRUE(tells("between sharp edges"));
+  EXPECT_FALSE(tells("of CAD edges"));
   EXPECT_FALSE(tells("borders"));
+  EXPECT_EQ(result.tries.led[static_cast<std::size_t>(Try::FilledFaces)], 1U);
+  EXPECT_GT(result.certificate.withoutMap, 0U);
+  EXPECT_EQ(
+    result.certificate.withoutMap + result.certificate.triangles, result.surface.mesh.faceCount());
+  EXPECT_EQ(result.uv.size(), result.surface.mesh.halfEdgeCount());
+  EXPECT_EQ(validate(result.surface.mesh), "");
+  const QuadTopology topology = analyzeQuads(result.quads.quads, result.quads.points.size());
+  EXPECT_TRUE(topology.manifold()) << topology.text();
+  EXPECT_EQ(topology.boundaryLoops, countBoundaryLoops(mesh, boundaryHalfEdges(mesh)));
+  options.threads = 2;
+  const RemeshResult again = remesh(input, options);
+  EXPECT_EQ(again.quads.points, result.quads.points);
+  EXPECT_EQ(again.quads.quads, result.quads.quads);
 }
 
 } // namespace
