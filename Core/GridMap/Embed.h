@@ -7,6 +7,7 @@
 #include "Base/Progress.h"
 #include "CrossField/CrossField.h"
 #include "GridMap/LockedMap.h"
+#include "GridMap/MapCheck.h"
 #include "GridMap/PreviousMap.h"
 #include "Mesh/Mesh.h"
 

@@ -6,6 +6,7 @@
 #include "Base/FixedPoint.h"
 #include "Base/Progress.h"
 #include "CrossField/CrossField.h"
+#include "GridMap/MapCheck.h"
 #include "GridMap/PreviousMap.h"
 
 #include <vector>
