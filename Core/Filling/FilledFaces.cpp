@@ -283,7 +283,15 @@ private:
       pointOf.push_back(
         addPoint(onMesh(triangles[filled->sourceFace[i]], filled->sourceWeights[i])));
     }
-    for (std::array<Index, 4> quad : filled->quads)
+    const NearestTriangle nearest = trianglesOf(face);
+    const auto placeOf = [&](const Vector3& p)
+    {
+      const NearestTriangle::Place place = *nearest.at(p);
+      return onMesh(triangles[place.triangle], place.weights);
+    };
+    std::vector<std::array<Index, 4>> quads = filled->quads;
+    partJoined(firstInside, placeOf, quads, pointOf);
+    for (std::array<Index, 4> quad : quads)
     {
       for (Index& p : quad)
       {
@@ -291,13 +299,6 @@ private:
       }
       made_.quads.quads.push_back(quad);
     }
-    const NearestTriangle nearest = trianglesOf(face);
-    const auto placeOf = [&](const Vector3& p)
-    {
-      const NearestTriangle::Place place = *nearest.at(p);
-      return onMesh(triangles[place.triangle], place.weights);
-    };
-    partJoined(first, firstInside, placeOf);
     for (std::size_t q = first; q < made_.quads.quads.size(); ++q)
     {
       const std::array<Vector3, 4> corners = cornersOf(made_.quads.points, made_.quads.quads[q]);
@@ -319,46 +320,53 @@ private:
   }
 
   /// Where a curve comes back near itself, faces on both sides may join the same two of its points by an edge inside,
-  /// which would then have four quads: the later face gets three edges instead, and each quad there becomes two. first:
-  /// of its quads; firstInside: of its own points.
+  /// and where one ends in a face, both sides of it may be joined to the same point: that edge would have four quads. The
+  /// later one becomes three edges instead, and the quads at it two each. firstInside: of the points of the face; quads:
+  /// by vertices of the face and others, of which pointOf has the points.
   template <typename PlaceOf>
-  void partJoined(std::size_t first, Index firstInside, const PlaceOf& placeOf)
+  void partJoined(Index firstInside, const PlaceOf& placeOf,
+    std::vector<std::array<Index, 4>>& quads, std::vector<Index>& pointOf)
   {
-    std::vector<std::array<Index, 4>>& quads = made_.quads.quads;
-    std::map<std::pair<Index, Index>, std::vector<Index>> inside; // half-edges
-    for (Index h = static_cast<Index>(4 * first); h < 4 * quads.size(); ++h)
+    std::map<std::pair<Index, Index>, int> sides;
+    for (const std::array<Index, 4>& quad : quads)
     {
-      const Index a = quads[h / 4][h % 4], b = quads[h / 4][nextInQuad(h) % 4];
-      if (std::max(a, b) < firstInside)
+      for (std::size_t i = 0; i < 4; ++i)
       {
-        inside[std::minmax(a, b)].push_back(h);
+        ++sides[std::minmax(quad[i], quad[(i + 1) % 4])];
       }
     }
-    for (const auto& [ends, halfEdges] : inside)
+    for (const auto& [ends, count] : sides)
     {
-      if (halfEdges.size() != 2 || joined_.insert(ends).second)
+      const auto [p, q] = std::minmax(pointOf[ends.first], pointOf[ends.second]);
+      if (count != 2 || p >= firstInside || joined_.emplace(p, q).second)
       {
         continue;
       }
-      const Vector3 from = made_.quads.points[ends.first], to = made_.quads.points[ends.second];
-      const Index near = addPoint(placeOf(from + (to - from) / 3));
-      const Index far = addPoint(placeOf(to + (from - to) / 3));
-      for (const auto& [a, b] : { ends, std::pair(ends.second, ends.first) })
+      const Vector3 from = made_.quads.points[pointOf[ends.first]];
+      const Vector3 to = made_.quads.points[pointOf[ends.second]];
+      const auto near = static_cast<Index>(pointOf.size()), far = near + 1;
+      pointOf.push_back(addPoint(placeOf(from + (to - from) / 3)));
+      pointOf.push_back(addPoint(placeOf(to + (from - to) / 3)));
+      partBeside(ends.first, near, far, ends.second, quads);
+      partBeside(ends.second, far, near, ends.first, quads);
+    }
+  }
+
+  /// The quad with an edge from a to b gets a, m, n, b in its place, and becomes two.
+  static void partBeside(
+    Index a, Index m, Index n, Index b, std::vector<std::array<Index, 4>>& quads)
+  {
+    for (std::array<Index, 4>& quad : quads)
+    {
+      for (std::size_t i = 0; i < 4; ++i)
       {
-        // The quad may have been parted before.
-        const auto isOne = [a = a, b = b](const std::array<Index, 4>& quad)
+        if (quad[i] == a && quad[(i + 1) % 4] == b)
         {
-          return std::any_of(quad.begin(), quad.end(),
-            [&](const Index& corner)
-            { return corner == a && quad[(&corner - quad.data() + 1) % 4] == b; });
-        };
-        const auto at =
-          std::find_if(quads.begin() + static_cast<std::ptrdiff_t>(first), quads.end(), isOne);
-        const auto i = static_cast<std::size_t>(std::find(at->begin(), at->end(), a) - at->begin());
-        const Index c = (*at)[(i + 2) % 4], d = (*at)[(i + 3) % 4];
-        const Index m = a == ends.first ? near : far, n = a == ends.first ? far : near;
-        *at = { a, m, c, d };
-        quads.push_back({ m, n, b, c });
+          const Index c = quad[(i + 2) % 4], d = quad[(i + 3) % 4];
+          quad = { a, m, c, d };
+          quads.push_back({ m, n, b, c });
+          return;
+        }
       }
     }
   }
