@@ -320,9 +320,9 @@ private:
   }
 
   /// Where a curve comes back near itself, faces on both sides may join the same two of its points by an edge inside,
-  /// and where one ends in a face, both sides of it may be joined to the same point: that edge would have four quads. The
-  /// later one becomes three edges instead, and the quads at it two each. firstInside: of the points of the face; quads:
-  /// by vertices of the face and others, of which pointOf has the points.
+  /// and where one ends in a face, both sides of it may be joined to the same point: that edge would have four quads.
+  /// The later one becomes three edges instead, and the quads at it two each. firstInside: of the points of the face;
+  /// quads: by vertices of the face and others, of which pointOf has the points.
   template <typename PlaceOf>
   void partJoined(Index firstInside, const PlaceOf& placeOf,
     std::vector<std::array<Index, 4>>& quads, std::vector<Index>& pointOf)
