@@ -31,16 +31,6 @@ Index endOf(const Mesh& mesh, const CurveStep& step)
   return step.forwards ? mesh.target(step.h) : mesh.origin[step.h];
 }
 
-std::vector<std::uint8_t> featureEdges(const Mesh& mesh)
-{
-  std::vector<std::uint8_t> isFeature(mesh.halfEdgeCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    isFeature[h] = mesh.isFeature(h) ? 1 : 0;
-  }
-  return isFeature;
-}
-
 } // namespace
 
 FaceCurves::FaceCurves(const Mesh& mesh, std::vector<std::uint8_t> isGiven, double edgeLength)
@@ -48,7 +38,7 @@ FaceCurves::FaceCurves(const Mesh& mesh, std::vector<std::uint8_t> isGiven, doub
     edges_(constrainedEdges(mesh)), at_(mesh.vertexCount())
 {
   Mesh opened = mesh;
-  cutOpen(opened, featureEdges(mesh));
+  cutOpenAtFeatures(opened);
   faceOf_ = faceComponents(opened, faces_);
   for (const Index h : edges_)
   {

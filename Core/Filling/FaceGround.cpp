@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,11 +79,7 @@ void FaceGround::walkLoop(
     {
       pins.push_back(face_.origin[h]);
     }
-    h = Mesh::next(h);
-    while (!face_.isBoundary(h))
-    {
-      h = Mesh::next(face_.twin[h]);
-    }
+    h = nextOnBoundary(face_, h);
   }
   for (std::size_t i = 0; i < pins.size(); ++i)
   {

@@ -155,13 +155,8 @@ private:
     std::iota(polygons.begin(), polygons.end(), Index{ 0 });
     opened_.sourcePolygon = std::move(polygons);
     opened_.sourcePoints = std::vector<std::array<Index, 3>>(faces);
-    std::vector<std::uint8_t> isFeature(mesh_.halfEdgeCount(), 0);
-    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
-    {
-      isFeature[h] = mesh_.isFeature(h) ? 1 : 0;
-    }
     pointAt_ = atVertex_;
-    for (const Index v : cutOpen(opened_.mesh, isFeature))
+    for (const Index v : cutOpenAtFeatures(opened_.mesh))
     {
       pointAt_.push_back(Index{ atVertex_[v] });
     }

@@ -68,4 +68,14 @@ std::vector<Index> cutOpen(Mesh& mesh, const std::vector<std::uint8_t>& isCut)
   return copied;
 }
 
+std::vector<Index> cutOpenAtFeatures(Mesh& mesh)
+{
+  std::vector<std::uint8_t> isFeature(mesh.halfEdgeCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    isFeature[h] = mesh.isFeature(h) ? 1 : 0;
+  }
+  return cutOpen(mesh, isFeature);
+}
+
 } // namespace quadrille

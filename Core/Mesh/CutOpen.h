@@ -17,4 +17,7 @@ namespace quadrille
 /// Linear.
 std::vector<Index> cutOpen(Mesh& mesh, const std::vector<std::uint8_t>& isCut);
 
+/// The same along all features, so that connected components are the faces between them.
+std::vector<Index> cutOpenAtFeatures(Mesh& mesh);
+
 } // namespace quadrille

@@ -38,7 +38,26 @@ constexpr std::size_t kMostStrips = 100;
 
 std::vector<Index> faceLabels(const Mesh& mesh)
 {
-  return FaceCurves(mesh, std::vector<std::uint8_t>(mesh.halfEdgeCount(), 0), 1).faceOf();
+  Mesh opened = mesh;
+  cutOpenAtFeatures(opened);
+  Index count = 0;
+  return faceComponents(opened, count);
+}
+
+/// Whether a designed surface has several faces, and nothing is asked for that quads without a map may not have.
+bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
+{
+  const bool isAsked = !surface.valenceRequests.empty() || !surface.sectorRequests.empty() ||
+    !surface.strokeFaces.empty() || !surface.strokes.empty() || !surface.curves.empty() ||
+    !surface.seams.empty() || !surface.straight.empty() || surface.regularElsewhere ||
+    surface.regularOnFeatures;
+  if (isAsked || !surface.facets.isDesigned || options.preview ||
+    options.method != MapMethod::ScaleAware)
+  {
+    return false;
+  }
+  const std::vector<Index> labels = faceLabels(surface.mesh);
+  return std::any_of(labels.begin(), labels.end(), [](Index label) { return label > 0; });
 }
 
 /// Of the two faces at an edge the one with less area.
@@ -303,25 +322,11 @@ private:
 
 } // namespace
 
-bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
-{
-  const bool isAsked = !surface.valenceRequests.empty() || !surface.sectorRequests.empty() ||
-    !surface.strokeFaces.empty() || !surface.strokes.empty() || !surface.curves.empty() ||
-    !surface.seams.empty() || !surface.straight.empty() || surface.regularElsewhere ||
-    surface.regularOnFeatures;
-  if (isAsked || !surface.facets.isDesigned || options.preview ||
-    options.method != MapMethod::ScaleAware)
-  {
-    return false;
-  }
-  const std::vector<Index> labels = faceLabels(surface.mesh);
-  return std::any_of(labels.begin(), labels.end(), [](Index label) { return label > 0; });
-}
-
-bool isCutAtFaces(const SizedSurface& sized, const RemeshOptions& options, const History& history)
+bool isCutAtFaces(
+  const PreparedSurface& surface, const RemeshOptions& options, const History& history)
 {
   return !history.hasResult() && !history.failedFaces().empty() && !isTooLarge(history.last()) &&
-    mayCutFaces(*sized.surface, options);
+    mayCutFaces(surface, options);
 }
 
 double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed)

@@ -26,10 +26,10 @@ struct CutFaces
   std::optional<SizedPart> rest; ///< none where these are all
 };
 
-/// Whether a designed surface has several faces, and nothing is asked for that quads without a map may not have.
-bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options);
-/// Whether attempts have ended without quads, and a map has failed in faces that can be cut out.
-bool isCutAtFaces(const SizedSurface& sized, const RemeshOptions& options, const History& history);
+/// Whether attempts on a surface have ended without quads, and a map has failed in faces that can be cut out: of a
+/// designed surface, where nothing is asked for that quads without a map may not have.
+bool isCutAtFaces(
+  const PreparedSurface& surface, const RemeshOptions& options, const History& history);
 /// The area of the faces in which a map has failed over that of the surface.
 double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed);
 CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int threads);

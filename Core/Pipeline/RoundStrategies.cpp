@@ -288,9 +288,8 @@ std::vector<Index> allOf(const Mesh& mesh, bool (*isOne)(const Mesh&, Index))
 
 bool isLeftToFaces(const AttemptFailure& failure)
 {
-  return failure.withoutQuads && !failure.history.hasResult() &&
-    !failure.history.failedFaces().empty() &&
-    mayCutFaces(*failure.run.surface.surface, failure.run.options) && !isTooLarge(failure.attempt);
+  return failure.withoutQuads &&
+    isCutAtFaces(*failure.run.surface.surface, failure.run.options, failure.history);
 }
 
 bool isTooLarge(const Attempt& attempt)

@@ -161,7 +161,7 @@ History makeAttempts(Settled& settled, SizedSurface& sized, const RemeshOptions&
   const auto isOver = [&]
   {
     return history.hasResult() || isDivided(sized, history) ||
-      isCutAtFaces(sized, options, history);
+      isCutAtFaces(*sized.surface, options, history);
   };
   if (!isOver())
   {
@@ -370,7 +370,7 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   RunContext& run = *settled.run;
   run.levels.letGo();
   const bool isInParts = isDivided(sized, history);
-  const bool failed = isInParts || isCutAtFaces(sized, options, history);
+  const bool failed = isInParts || isCutAtFaces(*sized.surface, options, history);
   if (failed)
   {
     history.packMaps(sized.surface->mesh);
