@@ -6,8 +6,8 @@
   check_tidy.py SOURCE_DIR CLANG_TIDY WORK_DIR INCLUDE_DIR... [--only MODULE]
 
 A source of Core costs clang-tidy 17 seconds, nearly all of it for the headers of Eigen and of the standard library. So
-the sources of a module are included in one here, or in two where names of anonymous namespaces would meet (see
-CMake/unity_groups.py): ten of them take four minutes of one core, 142 would take forty.
+many sources, of all modules, are included in one here, in which no names of anonymous namespaces meet (see
+CMake/unity_groups.py): fifty of them take 44 seconds of one core.
 """
 import concurrent.futures
 import os
@@ -25,12 +25,13 @@ from check_sources import CGAL_INCLUDE
 
 # Sources are included on purpose, in the file that this script writes.
 LEFT_OUT = "-bugprone-suspicious-include"
+AT_ONCE = 60  # sources; clang-tidy takes 1 GB for them
 FINDING = re.compile(r"^(.+?:\d+:\d+: (?:warning|error): .+)$", re.MULTILINE)
 
 
-def sourcesOf(module):
+def sourcesOf(folder):
     """Sources with CGAL's headers would cost as much as all others together."""
-    return sorted(path for path in module.glob("*.cpp") if not CGAL_INCLUDE.search(path.read_text()))
+    return sorted(path for path in folder.rglob("*.cpp") if not CGAL_INCLUDE.search(path.read_text()))
 
 
 def findings(program, unit, filterOfNames, includes):
@@ -44,16 +45,12 @@ def findings(program, unit, filterOfNames, includes):
     return found
 
 
-def check(program, root, work, includes, module):
+def check(program, root, work, includes, number, sources):
     begin = time.perf_counter()
-    own = re.escape(str(root / "Core")) + r"/.*\.(h|cpp)$"
-    found = []
-    for number, sources in enumerate(unity_groups.groupsOf(sourcesOf(module), 1000)):
-        unit = work / f"{module.name}{number}.cpp"
-        unit.write_text("".join(f'#include "{path}"\n' for path in sources))
-        found += findings(program, unit, own, includes)
-    seconds = time.perf_counter() - begin
-    print(f"tidy: Core/{module.name}, {len(sourcesOf(module))} sources, {seconds:.0f} s", flush=True)
+    unit = work / f"unit{number}.cpp"
+    unit.write_text("".join(f'#include "{path}"\n' for path in sources))
+    found = findings(program, unit, re.escape(str(root / "Core")) + r"/.*\.(h|cpp)$", includes)
+    print(f"tidy: {len(sources)} sources, {time.perf_counter() - begin:.0f} s", flush=True)
     return found
 
 
@@ -81,13 +78,13 @@ def main():
     work.mkdir(parents=True, exist_ok=True)
     (work / ".clang-tidy").write_text(style)
     includes = [("-I", str(root / "Core"))] + [("-isystem", folder) for folder in arguments[3:]]
-    modules = [m for m in (root / "Core").iterdir() if m.is_dir() and sourcesOf(m) and only in (None, m.name)]
-    modules.sort(key=lambda m: -sum(p.stat().st_size for p in sourcesOf(m)))
+    sources = sourcesOf(root / "Core" / (only or ""))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        parts = pool.map(lambda module: check(program, root, work, includes, module), modules)
+        parts = pool.map(lambda unit: check(program, root, work, includes, *unit),
+                         enumerate(unity_groups.groupsOf(sources, AT_ONCE)))
         found = sorted({line.replace(f"{root}/", "") for part in parts for line in part})
-    print("\n".join(found) or f"tidy: {len(modules)} modules, fine")
-    return 1 if found or not modules else 0
+    print("\n".join(found) or f"tidy: {len(sources)} sources, fine")
+    return 1 if found or not sources else 0
 
 
 if __name__ == "__main__":
