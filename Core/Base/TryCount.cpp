@@ -23,8 +23,6 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
   { "pipeline", "fewer borders", "borders of patches are led together, or given up", "6" },
   { "pipeline", "fewer features", "detected features near the places of a failure are given up",
     "4" },
-  { "pipeline", "features as on scans", "bands between an eighth and a quarter of s are given up",
-    "1" },
   { "pipeline", "coarser features",
     "those that much larger quads could not follow are given up, then all", "2" },
   { "pipeline", "no borders", "borders of patches are given up but for long ones, then all", "2" },

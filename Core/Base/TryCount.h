@@ -22,7 +22,6 @@ enum class Try : std::uint8_t
   MoreQuads,
   FewerBorders,
   FewerFeatures,
-  FeaturesAsOnScans,
   CoarserFeatures,
   NoBorders,
   FewerDetails,

@@ -40,6 +40,18 @@ FaceCurves::FaceCurves(const Mesh& mesh, std::vector<std::uint8_t> isGiven, doub
   Mesh opened = mesh;
   cutOpenAtFeatures(opened);
   faceOf_ = faceComponents(opened, faces_);
+  loopOf_.assign(mesh.halfEdgeCount(), kInvalidIndex);
+  for (Index first = 0; first < mesh.halfEdgeCount(); ++first)
+  {
+    if (opened.isBoundary(first) && loopOf_[first] == kInvalidIndex)
+    {
+      for (Index h = first; loopOf_[h] == kInvalidIndex; h = nextOnBoundary(opened, h))
+      {
+        loopOf_[h] = loops_;
+      }
+      ++loops_;
+    }
+  }
   for (const Index h : edges_)
   {
     at_[mesh.origin[h]].push_back(h);
@@ -77,12 +89,10 @@ std::optional<CurveStep> FaceCurves::stepAfter(const CurveStep& step) const
 FaceCurve FaceCurves::trace(CurveStep first, std::vector<std::uint8_t>& isDone) const
 {
   FaceCurve curve;
-  const auto sides = [&](Index h)
-  {
-    return std::array<Index, 2>{ faceOf_[Mesh::face(h)],
-      mesh_.isBoundary(h) ? kInvalidIndex : faceOf_[Mesh::face(mesh_.twin[h])] };
-  };
-  curve.faces = sides(first.h);
+  const Index twin = mesh_.isBoundary(first.h) ? kInvalidIndex : mesh_.twin[first.h];
+  curve.faces = { faceOf_[Mesh::face(first.h)],
+    twin == kInvalidIndex ? kInvalidIndex : faceOf_[Mesh::face(twin)] };
+  curve.loops = { loopOf_[first.h], twin == kInvalidIndex ? kInvalidIndex : loopOf_[twin] };
   for (std::optional<CurveStep> step = first; step && isDone[step->h] == 0; step = stepAfter(*step))
   {
     isDone[step->h] = 1;
@@ -188,9 +198,12 @@ void FaceCurves::setGiven(std::vector<CurvePoint> points)
   {
     for (std::size_t i = 0; i < given_.size(); ++i)
     {
-      pairs.emplace_back(
-        (positionOf(mesh_, given_[i].onSurface()) - mesh_.position[mesh_.origin[h]]).squaredNorm(),
-        h, i);
+      if (loopOf_[given_[i].h] == loopOf_[h])
+      {
+        const Vector3 way =
+          positionOf(mesh_, given_[i].onSurface()) - mesh_.position[mesh_.origin[h]];
+        pairs.emplace_back(way.squaredNorm(), h, i);
+      }
     }
   }
   std::sort(pairs.begin(), pairs.end());
@@ -208,42 +221,42 @@ void FaceCurves::setGiven(std::vector<CurvePoint> points)
 
 std::vector<Index> FaceCurves::chooseNumbers()
 {
-  std::vector<std::size_t> around(faces_, 0);
-  for (const CurvePoint& point : given_)
-  {
-    around[faceOf_[Mesh::face(point.h)]] += isGiven_[point.h];
-  }
-  for (FaceCurve& curve : curves_)
-  {
-    curve.edges = std::max(curve.least, static_cast<std::size_t>(std::llround(curve.length)));
-    for (const Index f : curve.faces)
-    {
-      if (f != kInvalidIndex)
-      {
-        around[f] += curve.edges;
-      }
-    }
-  }
+  std::vector<std::size_t> around(faces_, 0), aroundLoop(loops_, 0);
   const auto add = [&](FaceCurve& curve, std::size_t edges)
   {
     curve.edges += edges;
-    for (const Index f : curve.faces)
+    for (const std::size_t side : { 0, 1 })
     {
-      if (f != kInvalidIndex)
+      if (curve.faces[side] != kInvalidIndex)
       {
-        around[f] += edges;
+        around[curve.faces[side]] += edges;
+        aroundLoop[curve.loops[side]] += edges;
       }
     }
   };
-  // Two edges round a face would lie on each other.
+  for (const CurvePoint& point : given_)
+  {
+    around[faceOf_[Mesh::face(point.h)]] += isGiven_[point.h];
+    aroundLoop[loopOf_[point.h]] += isGiven_[point.h];
+  }
+  for (FaceCurve& curve : curves_)
+  {
+    curve.edges = 0;
+    add(curve, std::max(curve.least, static_cast<std::size_t>(std::llround(curve.length))));
+  }
+  // Two edges round a face, or round a hole in it, would lie on each other.
+  const auto hasFewer = [&](const FaceCurve& curve, std::size_t least)
+  {
+    return std::any_of(curve.loops.begin(), curve.loops.end(),
+      [&](Index loop) { return loop != kInvalidIndex && aroundLoop[loop] < least; });
+  };
   for (FaceCurve& curve : curves_)
   {
     const bool isTight = std::any_of(curve.faces.begin(), curve.faces.end(),
       [&](Index f) { return f != kInvalidIndex && around[f] < 4; });
-    if (isTight && curve.edges < 3)
+    if ((isTight || hasFewer(curve, 3)) && curve.edges < 3)
     {
       add(curve, 2);
-      curve.least = std::max(curve.least, curve.edges - 1);
     }
   }
   // A tree over the faces of each group, and over what is outside, where one is reached: from its leaves on an odd face
@@ -295,8 +308,8 @@ std::vector<Index> FaceCurves::chooseNumbers()
     if (around[step->first] % 2 != 0)
     {
       FaceCurve& curve = curves_[step->second];
-      const bool isShortened =
-        static_cast<double>(curve.edges) > curve.length && curve.edges > curve.least;
+      const bool isShortened = static_cast<double>(curve.edges) > curve.length &&
+        curve.edges > curve.least && !hasFewer(curve, 4);
       add(curve, isShortened ? std::size_t(-1) : 1);
     }
   }

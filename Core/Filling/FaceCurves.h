@@ -33,6 +33,7 @@ struct FaceCurve
   std::size_t edges = 1;        ///< that it gets
   std::size_t least = 1;        ///< that it must have, or edges would lie on each other
   std::array<Index, 2> faces{}; ///< on both sides; kInvalidIndex on the other side of a boundary
+  std::array<Index, 2> loops{}; ///< of these faces' boundaries; as for faces
 };
 
 /// Faces are the parts of a mesh between its features. Parts of its boundary are given: there quads beside have points.
@@ -74,6 +75,8 @@ private:
   double edgeLength_;
   std::vector<Index> faceOf_;
   Index faces_ = 0;
+  std::vector<Index> loopOf_; ///< of boundaries of faces, per half-edge; kInvalidIndex inside
+  Index loops_ = 0;
   std::vector<Index> edges_;           ///< constrained, the lower half-edge of each
   std::vector<std::vector<Index>> at_; ///< of these, per vertex
   std::vector<FaceCurve> curves_;

@@ -8,6 +8,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/TryCount.h"
+#include "Base/WorkCount.h"
 #include "GridMap/Embed.h"
 #include "GridMap/MapCheck.h"
 #include "GridMap/MapShape.h"
@@ -385,16 +386,22 @@ private:
     }
   }
 
-  /// Where a bound of work is reached, faces are told as those of the whole mesh.
-  static SeamlessResult mapOrTell(const MeshPart& part, const SeamlessOptions& options)
+  /// What `make` makes. Where a bound of work is reached, the faces are told as those of the whole mesh: where it was
+  /// spent, or where that is not known those where the part has failed before.
+  template <typename Make>
+  static auto madeOrTold(const MeshPart& part, const FailedFaces& before, const Make& make)
   {
     try
     {
-      return computeSeamlessMap(part.mesh, part.field, options);
+      return make();
     }
     catch (const SpentInFaces& spent)
     {
       throw SpentInFaces(ofWhole(part, spent.faces));
+    }
+    catch (const WorkSpent&)
+    {
+      throw SpentInFaces(ofWhole(part, before));
     }
   }
 
@@ -425,7 +432,8 @@ private:
     seamlessOptions.anisotropyLimit = options_.anisotropyLimit;
     seamlessOptions.maximumSteps = try_.maximumSteps;
     seamlessOptions.progress = progress;
-    SeamlessResult seamless = mapOrTell(part, seamlessOptions);
+    SeamlessResult seamless = madeOrTold(
+      part, {}, [&] { return computeSeamlessMap(part.mesh, part.field, seamlessOptions); });
     result_.seamlessSteps += seamless.newtonSteps;
     component.seamlessReused = component.seamlessReused || seamless.startedFromPrevious;
     if (!seamless.status.ok())
@@ -451,7 +459,8 @@ private:
     {
       if (!component.hasIntegers)
       {
-        component.fail(quantized.status, std::move(quantized.uv), {});
+        component.fail(
+          quantized.status, std::move(quantized.uv), {}, { std::move(quantized.failedFaces), {} });
       }
       return false;
     }
@@ -509,7 +518,8 @@ private:
       embedOptions.progress = progress;
       {
         const TimedScope timed(result_.secondsEmbed, result_.processorEmbed);
-        embedded = embedMap(part.mesh, part.field, component.uv, embedOptions);
+        embedded = madeOrTold(part, embedded.failedFaces,
+          [&] { return embedMap(part.mesh, part.field, component.uv, embedOptions); });
         result_.embedSteps += embedded.newtonSteps;
       }
       component.embedReused = embedded.startedFromPrevious;
@@ -526,7 +536,8 @@ private:
       }
       countTry(Try::OtherIntegers);
       watched = join(std::move(watched), embedded.failedAt);
-      QuantizeResult quantized = quantize(component, component.startUv, watched, progress);
+      QuantizeResult quantized = madeOrTold(part, embedded.failedFaces,
+        [&] { return quantize(component, component.startUv, watched, progress); });
       if (!quantized.status.ok() || contains(tried, quantized.uv))
       {
         break;

@@ -317,6 +317,7 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
     result.status = { StatusCode::NotConverged,
       "quantization: no valid integers up to scale " +
         std::to_string(std::min(start.scale, kMaximumScale)) };
+    result.failedFaces = brokenFaces(integers);
     return result;
   }
   integers.setPull(options.pull);

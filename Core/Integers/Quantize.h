@@ -32,6 +32,9 @@ struct QuantizeResult
   Status status;
   double refinement = 1; ///< factor by which sizes had to grow to be valid
   bool startedFromPrevious = false;
+  /// Triangles, of the face between features that a broken one of the decimated map lies in, where there are no valid
+  /// integers; empty where that is not known.
+  std::vector<Index> failedFaces;
 };
 /// Integers for a seamless map without a T-mesh [Coudert-Osmont et al. 2023].
 QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,

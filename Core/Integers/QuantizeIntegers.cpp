@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <tuple>
 
@@ -563,6 +564,14 @@ IntegerStart findValidIntegers(
     }
   }
   return start;
+}
+
+std::vector<Index> brokenFaces(const IntegerMap& map)
+{
+  std::vector<Index> broken;
+  std::copy_if(map.faces().begin(), map.faces().end(), std::back_inserter(broken),
+    [&](Index f) { return map.residual(f) != FixedVec2{} || !map.isSound(f); });
+  return broken;
 }
 
 void improveIntegers(IntegerMap& map, const ProgressCallback& progress)

@@ -7,6 +7,9 @@
 #include "Base/Progress.h"
 #include "Integers/IntegerMap.h"
 
+#include <cstddef>
+#include <vector>
+
 namespace quadrille
 {
 
@@ -23,6 +26,9 @@ IntegerStart findValidIntegers(
 
 /// Closes and repairs the displacements that the map has, whose scale is 1; not valid where that does not succeed.
 IntegerStart repairIntegers(IntegerMap& map);
+
+/// The triangles that are not closed, or not sound, where the map is not valid.
+std::vector<Index> brokenFaces(const IntegerMap& map);
 
 /// Lowers the energy of a valid map until nothing helps; it stays valid.
 void improveIntegers(IntegerMap& map, const ProgressCallback& progress);

@@ -136,7 +136,10 @@ private:
   void test(Index t)
   {
     const Corners corners = cornersOf(triangles_, t);
-    if (isFacing_ && !((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(facing_) > 0))
+    const Vector3 along = corners[1] - corners[0];
+    const bool isSegment = triangles_.corners[t][0] == triangles_.corners[t][2];
+    const Vector3 side = isSegment ? along : Vector3(along.cross(corners[2] - corners[0]));
+    if (isFacing_ && !(side.dot(facing_) > 0))
     {
       return;
     }

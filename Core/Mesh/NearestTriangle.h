@@ -39,7 +39,8 @@ public:
   NearestTriangle& operator=(const NearestTriangle&) = delete;
 
   /// None where there is no triangle within the distance. facing: only triangles whose normal is less than a right
-  /// angle from it count, such that places on a thin wall do not find the other side; zero: all.
+  /// angle from it count, such that places on a thin wall do not find the other side; of segments (a, b, a) those that
+  /// lead this way from a to b. Zero: all.
   std::optional<Place> at(const Vector3& p, const Vector3& facing = Vector3::Zero(),
     double within = std::numeric_limits<double>::infinity()) const;
   /// Of one triangle.

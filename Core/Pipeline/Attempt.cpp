@@ -510,6 +510,21 @@ std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& ver
   return points;
 }
 
+std::vector<Index> failedVertices(const Attempt& attempt, const Mesh& surface)
+{
+  if (!attempt.quads)
+  {
+    return attempt.map->failedIn;
+  }
+  std::vector<Index> vertices;
+  for (const Index f : attempt.quads->failedFaces)
+  {
+    vertices.push_back(surface.origin[3 * f]);
+  }
+  sortUnique(vertices);
+  return vertices;
+}
+
 bool isNear(const Vector3& p, const std::vector<Vector3>& places, double radius)
 {
   return std::any_of(places.begin(), places.end(),

@@ -108,7 +108,7 @@ struct QuadAttempt
   /// Where the map was solved again.
   std::optional<PackedMap> uv;
   std::optional<Certificate> certificate;
-  std::vector<Index> failedAt; ///< vertices of the surface, where the quads are no surface
+  std::vector<Index> failedFaces; ///< of the surface, where the quads are no surface
   std::size_t invertedQuads = 0;
   bool invertedAtFolds = false; ///< some of them where the map has folds
 
@@ -157,6 +157,9 @@ std::optional<GridDefects> gridDefects(const RunContext& run, const MapAttempt& 
 
 /// Positions of vertices.
 std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices);
+
+/// Vertices of the surface where an attempt has failed: those by which its components are told.
+std::vector<Index> failedVertices(const Attempt& attempt, const Mesh& surface);
 /// Whether p is less than `radius` from one of the places.
 bool isNear(const Vector3& p, const std::vector<Vector3>& places, double radius);
 

@@ -106,8 +106,9 @@ public:
     segments_.emplace(std::move(list));
   }
 
-  /// Where a point on it lies, between its neighbours on the boundary of the quads beside. Where the boundary meets
-  /// itself, the neighbours tell which of the vertices at that place it is.
+  /// Where a point on it lies, between its neighbours behind and before it on the boundary of the quads beside, which
+  /// leads the other way. Where the boundary meets itself, or another one, the neighbours tell which of the edges at
+  /// that place it is.
   std::optional<CurvePoint> at(
     const Vector3& place, const std::array<Vector3, 2>& neighbours, double within) const
   {
@@ -117,10 +118,15 @@ public:
       return std::nullopt;
     }
     std::optional<NearestTriangle::Place> nearest;
-    for (const Vector3& other : neighbours)
+    for (const std::size_t side : { 0, 1 })
     {
-      const auto found = segments_->at(place + towards * (other - place));
-      nearest = !nearest || found->distance < nearest->distance ? found : nearest;
+      const Vector3 on = neighbours[side] - place;
+      const auto found = segments_->at(place + towards * on, side == 0 ? on : Vector3(-on));
+      nearest = found && (!nearest || found->distance < nearest->distance) ? found : nearest;
+    }
+    if (!nearest)
+    {
+      return std::nullopt;
     }
     constexpr double rounding = 1e-9;
     const double t = segments_->on(nearest->triangle, place).weights[1];
@@ -325,8 +331,7 @@ private:
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history)
 {
-  return !history.hasResult() && !history.failedFaces().empty() && !isTooLarge(history.last()) &&
-    mayCutFaces(surface, options);
+  return !history.hasResult() && !isTooLarge(history.last()) && mayCutFaces(surface, options);
 }
 
 double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed)

@@ -26,8 +26,8 @@ struct CutFaces
   std::optional<SizedPart> rest; ///< none where these are all
 };
 
-/// Whether attempts on a surface have ended without quads, and a map has failed in faces that can be cut out: of a
-/// designed surface, where nothing is asked for that quads without a map may not have.
+/// Whether attempts on a surface have no quads yet, and its faces can be filled without a map: those of a designed
+/// surface, where nothing is asked for that such quads may not have. Then no feature is given up for a map.
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history);
 /// The area of the faces in which a map has failed over that of the surface.

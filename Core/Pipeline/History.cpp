@@ -57,6 +57,7 @@ void History::addQuads(std::shared_ptr<const QuadAttempt> quads)
   best_.quads = std::move(quads);
   last_ = best_;
   take(*last_.quads);
+  failedFaces_ = { last_.quads->failedFaces, {} };
   if (last_.quads->status.ok() &&
     (!result_.quads || 2 * last_.quads->invertedQuads <= result_.quads->invertedQuads))
   {

@@ -59,7 +59,7 @@ public:
   void beginLastResort();
   /// What the map of the next attempt may take.
   std::size_t allowance() const;
-  /// Of the last map that has failed in faces; empty where none has, or a later one is a map.
+  /// Of the last map or quads that have failed in faces; empty where none have, or it is not known where.
   const FailedFaces& failedFaces() const { return failedFaces_; }
   /// Of all attempts, the first one's "first".
   const std::vector<std::string>& steps() const { return steps_; }

@@ -99,9 +99,10 @@ std::optional<Plan> moreFreedom(const AttemptFailure& failure)
   {
     return std::nullopt;
   }
-  if (isLeftToFaces(failure) &&
+  if (isCutAtFaces(*failure.run.surface.surface, failure.run.options, history) &&
     (times > 0 ||
-      shareOfFailed(*failure.run.surface.surface, history.failedFaces()) <= kLittleArea))
+      (!history.failedFaces().empty() &&
+        shareOfFailed(*failure.run.surface.surface, history.failedFaces()) <= kLittleArea)))
   {
     return std::nullopt;
   }

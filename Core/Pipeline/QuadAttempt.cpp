@@ -145,8 +145,8 @@ void countInverted(const RunContext& run, const MapAttempt& map, QuadAttempt& ma
     });
 }
 
-/// Vertices of the mesh under the points where more than two quads have an edge, or a quad has a point twice.
-std::vector<Index> placesWithoutSurface(const Mesh& mesh, const QuadMesh& quads)
+/// Triangles under the points where more than two quads have an edge, or a quad has a point twice.
+std::vector<Index> facesWithoutSurface(const QuadMesh& quads)
 {
   std::vector<std::pair<Index, Index>> edges;
   for (const std::array<Index, 4>& quad : quads.quads)
@@ -157,17 +157,18 @@ std::vector<Index> placesWithoutSurface(const Mesh& mesh, const QuadMesh& quads)
     }
   }
   std::sort(edges.begin(), edges.end());
-  std::vector<Index> vertices;
+  std::vector<Index> faces;
   for (std::size_t i = 0; i < edges.size(); ++i)
   {
     const auto& [a, b] = edges[i];
     if (a == b || (i + 2 < edges.size() && edges[i] == edges[i + 2]))
     {
-      vertices.push_back(mesh.origin[3 * quads.sourceFace[a]]);
+      faces.push_back(quads.sourceFace[a]);
+      faces.push_back(quads.sourceFace[b]);
     }
   }
-  sortUnique(vertices);
-  return vertices;
+  sortUnique(faces);
+  return faces;
 }
 
 /// certificate: of the map that the quads are made of. Returns how many quads there are, also where they are not valid.
@@ -180,7 +181,7 @@ std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<F
   if (!extracted.status.ok())
   {
     made.status = failureOf(extracted.status, run.options.method, certificate);
-    made.failedAt = placesWithoutSurface(mesh, extracted.mesh);
+    made.failedFaces = facesWithoutSurface(extracted.mesh);
     return extracted.mesh.quads.size();
   }
   made.extraction = extracted;

@@ -33,8 +33,7 @@ constexpr std::array<Strategy, 4> kForRounds{ {
 } };
 
 /// Where no round has quads and none of the others is left, or may be tried any more.
-constexpr std::array<Strategy, 3> kLastResort{ {
-  { Try::FeaturesAsOnScans, 1, featuresAsOnScans },
+constexpr std::array<Strategy, 2> kLastResort{ {
   { Try::CoarserFeatures, 2, coarserFeatures },
   { Try::NoBorders, 2, noBorders },
 } };

@@ -9,7 +9,6 @@
 #include "Features/FeatureNetwork.h"
 #include "Features/GivenUpFeatures.h"
 #include "Mesh/Sizing.h"
-#include "Pipeline/FaceDivision.h"
 #include "Pipeline/FirstPlan.h"
 #include "Requests/Guides.h"
 
@@ -150,8 +149,9 @@ void giveUp(const std::vector<Index>& features, Plan& plan)
 }
 
 /// Features that quads so many times as large as they are to be cannot resolve.
-std::vector<Index> unresolved(const RunContext& run, Mesh mesh, double times, bool isDesigned)
+std::vector<Index> unresolved(const RunContext& run, Mesh mesh, double times)
 {
+  const bool isDesigned = run.surface->facets.isDesigned;
   const std::vector<std::uint8_t> before = mesh.flags;
   const double edgeLength = times * run.edgeLength;
   FeatureFilterReport filtered =
@@ -167,7 +167,7 @@ std::vector<Index> unresolvedWithBorders(const RunContext& run, Mesh mesh, doubl
   {
     flags &= (flags & kYieldingFeature) != 0 ? static_cast<std::uint8_t>(~kRequestedFeature) : 0xFF;
   }
-  return unresolved(run, std::move(mesh), times, run.surface->facets.isDesigned);
+  return unresolved(run, std::move(mesh), times);
 }
 
 /// Junctions of borders that are too near to each other for quads become one; null where there are none.
@@ -285,12 +285,6 @@ std::vector<Index> allOf(const Mesh& mesh, bool (*isOne)(const Mesh&, Index))
 }
 
 } // namespace
-
-bool isLeftToFaces(const AttemptFailure& failure)
-{
-  return failure.withoutQuads &&
-    isCutAtFaces(*failure.run.surface.surface, failure.run.options, failure.history);
-}
 
 bool isTooLarge(const Attempt& attempt)
 {
@@ -442,7 +436,7 @@ std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
     }
     features = featuresNear(failure, drops);
   }
-  if (isTooLarge(attempt) || features.empty() || isLeftToFaces(failure))
+  if (isTooLarge(attempt) || features.empty())
   {
     return std::nullopt;
   }
@@ -451,27 +445,6 @@ std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
   giveUp(features, plan);
   plan.notices.push_back(std::to_string(features.size()) + " sharp edges" + nearText(places) +
     " leave no room for quads of this edge length and were not used as features");
-  return plan;
-}
-
-std::optional<Plan> featuresAsOnScans(const AttemptFailure& failure)
-{
-  const RunContext& run = failure.run;
-  if (!failure.withoutQuads || !run.surface->facets.isDesigned || isTooLarge(failure.attempt) ||
-    isLeftToFaces(failure))
-  {
-    return std::nullopt;
-  }
-  const std::vector<Index> features = unresolved(run, failure.surface->mesh, 1, false);
-  if (features.empty())
-  {
-    return std::nullopt;
-  }
-  Plan plan = fromTheBeginning(run, failure.attempt.plan);
-  giveUp(features, plan);
-  plan.notices.push_back(std::to_string(features.size()) +
-    " sharp edges along bands narrower than a quarter of an edge length were not used as features, "
-    "as there is no map with them; ask for smaller quads, or mark the edges that are to stay");
   return plan;
 }
 
@@ -531,7 +504,7 @@ std::optional<Plan> withCoarserFeatures(const RunContext& run, const Plan& befor
   const std::vector<Try>& made = before.made;
   if (std::find(made.begin(), made.end(), Try::CoarserFeatures) == made.end() && !detected.empty())
   {
-    features = unresolved(run, surface->mesh, kCoarserFeatures, run.surface->facets.isDesigned);
+    features = unresolved(run, surface->mesh, kCoarserFeatures);
   }
   features = features.empty() ? detected : features;
   if (features.empty())
@@ -555,8 +528,7 @@ std::optional<Plan> noBorders(const AttemptFailure& failure)
   const Mesh& mesh = failure.surface->mesh;
   const Plan& before = failure.attempt.plan;
   const std::vector<Index> all = allOf(mesh, isYieldingFeature);
-  if (all.empty() || isTooLarge(failure.attempt) || before.borderDrops == 0 ||
-    isLeftToFaces(failure))
+  if (all.empty() || isTooLarge(failure.attempt) || before.borderDrops == 0)
   {
     return std::nullopt;
   }
@@ -574,8 +546,7 @@ std::optional<Plan> coarserFeatures(const AttemptFailure& failure)
 {
   const std::vector<std::string>& steps = failure.history.steps();
   const auto times = std::count(steps.begin(), steps.end(), tryRow(Try::CoarserFeatures).name);
-  return static_cast<std::size_t>(times) >= failure.bound || isTooLarge(failure.attempt) ||
-      isLeftToFaces(failure)
+  return static_cast<std::size_t>(times) >= failure.bound || isTooLarge(failure.attempt)
     ? std::nullopt
     : withCoarserFeatures(failure.run, failure.attempt.plan);
 }

@@ -80,6 +80,13 @@ void makeQuadsOfRound(RunContext& run, History& history)
                                           : makeQuads(run, surface, best.plan, *best.map));
 }
 
+/// Whether what has no quads is made in parts: components, or faces between features.
+bool isLeftToParts(const SizedSurface& sized, const RemeshOptions& options, const History& history)
+{
+  return !history.hasResult() &&
+    (isDivided(sized, history) || isCutAtFaces(*sized.surface, options, history));
+}
+
 /// Rounds of attempts until one is good or nothing is left to try: maps until one is good or no other would be better,
 /// then the quads of the best one. isLast: where no attempt has quads, nothing follows. Where the surface is divided
 /// after a failure, the first one is the end.
@@ -93,8 +100,8 @@ void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> 
   {
     const auto next = [&]
     {
-      return history.hasResult() || !isDivided(sized, history) ? nextPlan(run, history, isLast)
-                                                               : std::nullopt;
+      return isLeftToParts(sized, run.options, history) ? std::nullopt
+                                                        : nextPlan(run, history, isLast);
     };
     const auto nextMap = [&]
     {
@@ -158,11 +165,7 @@ History makeAttempts(Settled& settled, SizedSurface& sized, const RemeshOptions&
       countTryLed(again->what, again->isCounted && history.hasResult() ? 1 : 0);
     }
   };
-  const auto isOver = [&]
-  {
-    return history.hasResult() || isDivided(sized, history) ||
-      isCutAtFaces(*sized.surface, options, history);
-  };
+  const auto isOver = [&] { return history.hasResult() || isLeftToParts(sized, options, history); };
   if (!isOver())
   {
     beginAgain(withoutRest(settled, sized, options, store, first, history));
@@ -266,8 +269,7 @@ bool remeshDivided(const History& history, Settled& settled, SizedSurface& sized
   std::vector<Index> failed;
   if (history.attempts() > 0)
   {
-    const Attempt& last = history.last();
-    failed = last.quads ? last.quads->failedAt : last.map->failedIn;
+    failed = failedVertices(history.last(), sized.surface->mesh);
   }
   countTry(Try::Components);
   failure = remeshParts(
@@ -308,7 +310,8 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
   }
   FilledPart filled = fillCutFaces(cut, cut.rest ? &cut.rest->sized.surface->mesh : nullptr,
     cut.rest ? &made.quads : nullptr, sized.edgeLength);
-  failure = { history.last().map->status, filled.failedAt };
+  const Attempt& last = history.last();
+  failure = { last.quads ? last.quads->status : last.map->status, filled.failedAt };
   if (!filled.failedAt.empty())
   {
     return false;
@@ -348,7 +351,8 @@ bool remeshBesideFaces(const History& history, Settled& settled, SizedSurface& s
   FailedFaces all;
   all.faces = idsWhere(sized.surface->mesh.faceCount(), [](Index) { return true; });
   countTry(Try::FilledFaces);
-  const bool isFilled = with(history.failedFaces()) || with(all);
+  const bool isFilled =
+    (!history.failedFaces().empty() && with(history.failedFaces())) || with(all);
   countTryLed(Try::FilledFaces, isFilled ? 1 : 0);
   return isFilled;
 }

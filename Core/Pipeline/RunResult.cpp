@@ -79,10 +79,9 @@ void noteFailed(const Attempt& attempt, const Mesh& mesh, RemeshResult& result)
   {
     return;
   }
-  const std::vector<Index>& vertices =
-    attempt.quads ? attempt.quads->failedAt : attempt.map->failedIn;
-  result.failed.places =
-    attempt.map->failedPlaces.empty() ? positionsOf(mesh, vertices) : attempt.map->failedPlaces;
+  result.failed.places = attempt.map->failedPlaces.empty()
+    ? positionsOf(mesh, failedVertices(attempt, mesh))
+    : attempt.map->failedPlaces;
 }
 
 void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& result)

@@ -56,10 +56,6 @@ std::optional<Plan> smallerQuadsNear(const AttemptFailure& failure);
 /// Where smaller quads near the places do not do: twice as many everywhere. Bound: times one after the other.
 std::optional<Plan> moreQuads(const AttemptFailure& failure);
 
-/// After a failure on a designed surface, the features that would not be on another one (removeUnresolvedFeatures) are
-/// given up: bands between s / 8 and s / 4. There are none a second time.
-std::optional<Plan> featuresAsOnScans(const AttemptFailure& failure);
-
 /// Features that only the dihedral angle asked for are given up near the places of a failure, twice as far as the last
 /// time where a place fails again, and after a failure so far that there are some; or near folds at which quads are
 /// inverted. Bound: times in all, for quads that are inverted.
@@ -89,9 +85,6 @@ std::optional<Plan> noBorders(const AttemptFailure& failure);
 
 /// Calls the plan by what has made it.
 void setStep(Plan& plan, Try which);
-
-/// Faces without a map are filled with quads later, and keep their features (see FaceDivision.h).
-bool isLeftToFaces(const AttemptFailure& failure);
 
 /// Whether a limit of the user stands in the way, which features have no part in.
 bool isTooLarge(const Attempt& attempt);

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -138,6 +139,62 @@ TEST(FaceCurves, GivenPointsMakeAFaceOdd)
   points.push_back({ points.front().h, 0.5 });
   curves.setGiven(points);
   EXPECT_EQ(curves.chooseNumbers(), std::vector<Index>{ 0 });
+}
+
+TEST(FaceCurves, ThreeEdgesGoRoundASlit)
+{
+  Mesh mesh = test::gridPlane(8, 8);
+  Index slit = 0;
+  while (mesh.isBoundary(slit) || (mesh.position[mesh.origin[slit]] - Vector3(4, 4, 0)).norm() > 0)
+  {
+    ++slit;
+  }
+  mesh.flags.edit()[slit] |= kFeatureEdge;
+  mesh.flags.edit()[mesh.twin[slit]] |= kFeatureEdge;
+  FaceCurves curves(mesh, none(mesh), 1);
+  EXPECT_TRUE(curves.chooseNumbers().empty());
+  const auto isInside = [](const FaceCurve& curve) { return curve.faces[1] != kInvalidIndex; };
+  const auto found = std::find_if(curves.curves().begin(), curves.curves().end(), isInside);
+  ASSERT_NE(found, curves.curves().end());
+  EXPECT_NEAR(found->length, 1, 0.5);
+  EXPECT_EQ(found->loops[0], found->loops[1]);
+  EXPECT_GE(2 * found->edges, 3U);
+  const FilledFaces filled = fillFaces(mesh, curves, 1);
+  EXPECT_TRUE(filled.failedAt.empty());
+  EXPECT_FALSE(filled.quads.quads.empty());
+}
+
+/// Two plates that lie on each other, each with a curve between points of its boundary.
+TEST(FaceCurves, CurvesEndAtPointsOfTheirOwnLoop)
+{
+  const Mesh plane = test::gridPlane(2, 2);
+  Mesh mesh = test::disjointUnion(plane, plane, Vector3::Zero());
+  std::vector<std::uint8_t> isGiven = none(mesh);
+  std::vector<CurvePoint> points;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3 from = mesh.position[mesh.origin[h]], to = mesh.position[mesh.target(h)];
+    if (mesh.isBoundary(h))
+    {
+      isGiven[h] = 1;
+      // Those of the first plate are nearer to the end of both curves.
+      points.push_back({ h, Mesh::face(h) < plane.faceCount() ? 0.1 : 0.2 });
+    }
+    else if (from.x() == 1 && to.x() == 1)
+    {
+      mesh.flags.edit()[h] |= kFeatureEdge;
+    }
+  }
+  FaceCurves curves(mesh, isGiven, 1);
+  curves.setGiven(points);
+  int atVertices = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const CurvePoint& point = curves.given()[i];
+    EXPECT_EQ(Mesh::face(point.h) < plane.faceCount(), Mesh::face(points[i].h) < plane.faceCount());
+    atVertices += point.t == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(atVertices, 4);
 }
 
 TEST(FilledFaces, ACubeIsClosedAndSharp)

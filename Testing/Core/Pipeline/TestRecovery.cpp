@@ -146,9 +146,9 @@ std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centre
 TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
-    std::vector<std::string>({ "more freedom", "room for curves", "kept defects",
-      "smaller quads near", "more quads", "fewer borders", "fewer features", "features as on scans",
-      "coarser features", "no borders" }));
+    std::vector<std::string>(
+      { "more freedom", "room for curves", "kept defects", "smaller quads near", "more quads",
+        "fewer borders", "fewer features", "coarser features", "no borders" }));
 }
 
 // The plan that a run begins with.
@@ -973,29 +973,6 @@ TEST(Recovery, WithoutQuadsTheLastResortIsTriedWhateverTheWork)
   history.addMap(*next, failed);
   history.addQuads(nullptr);
   EXPECT_FALSE(nextPlan(run.context, history));
-}
-
-TEST(Recovery, TheLastResortBeginsWithWhatOtherSurfacesWouldNotHave)
-{
-  Mesh small = test::unitCube(2);
-  for (Vector3& p : small.position.editAll())
-  {
-    p *= 0.1;
-  }
-  const SurfaceInput input =
-    test::toInput(test::disjointUnion(test::unitCube(8), small, Vector3(2, 0, 0)));
-  CubeRun run(input);
-  const std::optional<Plan> next = run.nextAfter(run.first(), failedMap(), nullptr, true);
-  expectStep(next, "features as on scans");
-  ASSERT_TRUE(next->featuresGivenUp);
-  for (const Index h : *next->featuresGivenUp)
-  {
-    EXPECT_GT(run.mesh().position[run.mesh().origin[h]].x(), 1.5);
-  }
-  EXPECT_EQ(next->featuresGivenUp->size(), 12U * 2U);
-  const std::optional<Plan> last = run.nextAfter(*next, failedMap(), nullptr, true);
-  expectStep(last, "coarser features");
-  EXPECT_EQ(last->featuresGivenUp->size(), 12U * 10U);
 }
 
 TEST(Recovery, TheLastResortLeavesFeaturesThatWereAskedFor)

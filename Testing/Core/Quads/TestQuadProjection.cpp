@@ -129,6 +129,21 @@ TEST(QuadProjection, IsTheSameForAnyNumberOfThreads)
   EXPECT_EQ(one.points, many.points);
 }
 
+TEST(NearestTriangle, SegmentsAreFoundByTheirWay)
+{
+  TriangleList list;
+  list.points = { Vector3(0, 0, 0), Vector3(1, 0, 0) };
+  list.corners = { { 0, 1, 0 }, { 1, 0, 1 } };
+  const NearestTriangle segments(std::move(list));
+  const Vector3 place(0.25, 0, 0.5), way(1, 3, 0);
+  const auto there = segments.at(place, way), back = segments.at(place, -way);
+  ASSERT_TRUE(there && back);
+  EXPECT_EQ(there->triangle, 0U);
+  EXPECT_EQ(back->triangle, 1U);
+  EXPECT_EQ(there->point, back->point);
+  EXPECT_FALSE(segments.at(place, Vector3(0, 1, 0)));
+}
+
 TEST(QuadProjection, RefusesADistanceThatIsNone)
 {
   QuadGrid grid = gridAt(1, 0);
