@@ -384,13 +384,19 @@ InpSetNames uniqueNames(const MeshSets& sets, SetNames& names)
   return result;
 }
 
-void writeInpSets(const MeshSets& sets, const InpSetNames& names, bool isPlane, InpDialect dialect,
-  OutputFile& file)
+void writeInpSets(const ElementMesh& mesh, const MeshSets& sets, const InpSetNames& names,
+  bool isPlane, InpDialect dialect, OutputFile& file)
 {
   for (std::size_t i = 0; i < sets.patches.size(); ++i)
   {
     file << "*ELSET, ELSET=" << names.patches[i] << '\n';
     writeInpIds(file, sets.patches[i].elements);
+    if (sets.patches[i].isNamed)
+    {
+      // No edge or vertex has this name, as names of all kinds of sets differ.
+      file << "*NSET, NSET=" << names.patches[i] << '\n';
+      writeInpIds(file, nodesOf(mesh, sets.patches[i]));
+    }
   }
   for (std::size_t i = 0; i < sets.boundaries.size(); ++i)
   {
@@ -450,7 +456,7 @@ std::vector<std::string> writeInp(
   report(options.progress, kAfterNodesOfInp, text);
   writeInpElements(mesh, type, file);
   report(options.progress, kAfterElements, text);
-  writeInpSets(sets, names, isPlane, options.dialect, file);
+  writeInpSets(mesh, sets, names, isPlane, options.dialect, file);
   report(options.progress, kAfterSets, text);
   std::vector<std::string> notices = writeInpSections(mesh, type[0] == 'S', options, file);
   file.close();

@@ -142,9 +142,10 @@ std::vector<ElementSet> patchSets(const ElementMesh& mesh)
     const auto [found, isNew] = setOfName.emplace(name, static_cast<Index>(sets.size()));
     if (isNew)
     {
-      sets.push_back({ name, patch.number, {} });
+      sets.push_back({ name, patch.number, {}, false });
     }
     setOf[p] = found->second;
+    sets[found->second].isNamed = sets[found->second].isNamed || !patch.name.empty();
   }
   for (std::size_t e = 0; e < mesh.elementCount(); ++e)
   {
@@ -544,6 +545,20 @@ std::vector<Index> nodesOf(const MeshSets& sets, const CurveSet& curve)
       }
     }
   }
+  return nodes;
+}
+
+std::vector<Index> nodesOf(const ElementMesh& mesh, const ElementSet& patch)
+{
+  std::vector<Index> nodes;
+  nodes.reserve(patch.elements.size() * static_cast<std::size_t>(mesh.nodesPerElement));
+  for (std::size_t i = 0; i < patch.elements.size(); ++i)
+  {
+    pollNowAndThen(i);
+    const Index* const element = mesh.element(patch.elements[i]);
+    nodes.insert(nodes.end(), element, element + mesh.nodesPerElement);
+  }
+  sortUnique(nodes);
   return nodes;
 }
 

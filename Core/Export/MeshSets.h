@@ -42,6 +42,7 @@ struct ElementSet
   std::string name;
   std::int64_t number = 0;     ///< of its first patch
   std::vector<Index> elements; ///< ascending
+  bool isNamed = false;        ///< by MeshPatch::name
 };
 
 /// A boundary loop, a feature curve, or all edges of a name of its own.
@@ -80,6 +81,9 @@ MeshSets setsOf(const ElementMesh& mesh);
 std::vector<Index> patchSetOfElements(const ElementMesh& mesh, const MeshSets& sets);
 /// All nodes of a curve in their order, with those in the middle of edges, each once.
 std::vector<Index> nodesOf(const MeshSets& sets, const CurveSet& curve);
+/// All nodes of the elements of a patch, with those in the middle of edges and of elements, ascending, each once. Looks
+/// out for a stop.
+std::vector<Index> nodesOf(const ElementMesh& mesh, const ElementSet& patch);
 /// All edges of a curve in their order.
 std::vector<ElementSide> sidesOf(const MeshSets& sets, const CurveSet& curve);
 

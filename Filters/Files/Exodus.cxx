@@ -262,7 +262,9 @@ ExodusSet sideSet(const std::string& name, const std::vector<ElementSide>& sides
   return set;
 }
 
-void addSets(const MeshSets& sets, SetNames& names, ExodusWriter* writer)
+/// Names of blocks come last, so that a patch cannot take one of the generated names.
+void addSets(const ElementMesh& mesh, const MeshSets& sets, const std::vector<int>& blockIds,
+  SetNames& names, ExodusWriter* writer)
 {
   for (const auto* curves : { &sets.boundaries, &sets.curves })
   {
@@ -277,6 +279,15 @@ void addSets(const MeshSets& sets, SetNames& names, ExodusWriter* writer)
   for (std::size_t i = 0; i < cornerNames.size(); ++i)
   {
     writer->nodeSets.push_back(nodeSet(cornerNames[i], { sets.corners[i].node }));
+  }
+  const std::vector<std::string> blockNames = names.uniqueOf(sets.patches);
+  for (std::size_t i = 0; i < blockIds.size(); ++i)
+  {
+    writer->blockNames[blockIds[i]] = blockNames[i];
+    if (sets.patches[i].isNamed)
+    {
+      writer->nodeSets.push_back(nodeSet(blockNames[i], nodesOf(mesh, sets.patches[i])));
+    }
   }
 }
 
@@ -295,12 +306,7 @@ std::vector<std::string> writeExodus(
   SetNames names(kExodusNames);
   const std::vector<int> blockIds = blockIdsOf(sets);
   vtkNew<ExodusWriter> writer;
-  addSets(sets, names, writer);
-  const std::vector<std::string> blockNames = names.uniqueOf(sets.patches);
-  for (std::size_t i = 0; i < blockIds.size(); ++i)
-  {
-    writer->blockNames[blockIds[i]] = blockNames[i];
-  }
+  addSets(elements, sets, blockIds, names, writer);
   writer->SetInputData(exodusGrid(mesh, sets, blockIds, leftOut));
   writer->SetBlockIdArrayName(kBlockIds);
   writer->WriteOutBlockIdArrayOff();

@@ -20,9 +20,9 @@ void writeVtp(vtkPolyData* mesh, const std::string& path);
 /// Returns what the user should know.
 std::vector<std::string> writeVtu(vtkDataSet* mesh, bool withDetails, const std::string& path);
 
-/// Exodus II: an element block for each patch, a side set for each boundary loop and feature curve, node sets for these
-/// and the corners, and all arrays of numbers as variables. Elements go by blocks, and an element map has their ids
-/// from 1. Returns what the user should know.
+/// Exodus II: an element block for each patch, a side set for each boundary loop and feature curve, node sets for
+/// these, the corners and the patches with a name, and all arrays of numbers as variables. Elements go by blocks, and
+/// an element map has their ids from 1. Returns what the user should know.
 std::vector<std::string> writeExodus(
   vtkDataSet* mesh, const ElementMesh& elements, const MeshSets& sets, const std::string& path);
 

@@ -98,6 +98,7 @@ class Cad(unittest.TestCase):
         text = (FOLDER / "named.inp").read_text().upper()
         for name in ("SUPPORT", "BORE", "FACE_2"):
             self.assertIn(f"ELSET={name}\n", text)
+            self.assertIn(f"NSET={name}\n", text)
 
     def test_parts_of_an_assembly_are_in_the_names(self):
         result = run(FOLDER / "assembly.step", FOLDER / "assembly.msh", "--quads", 800)

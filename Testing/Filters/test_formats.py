@@ -711,8 +711,9 @@ U
 
     def test_names(self):
         """Blanks, commas, other letters, long names, names that are one after cleaning: told once, and all sets there.
-        Two patches of one name are one set."""
-        expected = Sets(box(), self.NAMES).patches
+        Two patches of one name are one set. A node set has the name of the element set or block."""
+        data = box()
+        expected = Sets(data, self.NAMES).patches
         self.assertEqual(len(expected), 9)
         members = {frozenset(those) for those in expected.values()}
         for extension in ("inp", "msh", "ex2"):
@@ -728,19 +729,26 @@ U
                     self.assertTrue(all(re.fullmatch(r"[A-Z][A-Z0-9_]{0,79}", name) for name in names), names)
                     self.assertEqual(len({name.upper() for name in names}), len(names))
                     self.assertIn("INLET_PIPE", names)
+                    elements = {name: read.cell_sets[name][0] for name in names if name != "EALL"}
+                    nodes = read.point_sets
                 elif extension == "msh":
                     with Gmsh(path) as read:
                         groups = read.groups(2)
                     found = {frozenset(tag - 1 for tag in rows) for rows in groups.values()}
+                    elements = nodes = {}
                     self.assertIn("Größe", groups)
                     self.assertIn("inlet pipe", groups)
                     self.assertTrue(all(len(name.encode()) <= 127 for name in groups))
                 else:
-                    _, _, blocks, _, _ = exodus_by_netcdf(path)
+                    _, _, blocks, nodes, _ = exodus_by_netcdf(path)
                     found = {frozenset(those) for those in blocks.values()}
+                    elements = blocks
                     self.assertIn("inlet pipe", blocks)
                     self.assertTrue(all(len(name.encode()) <= 32 for name in blocks), blocks)
                 self.assertEqual(found, members)
+                for name, those in elements.items():
+                    self.assertEqual(sorted(map(int, nodes[name])),
+                                     sorted({int(n) for e in those for n in data.elements[int(e)]}), name)
 
     @by_calculix
     def test_names_by_calculix(self):

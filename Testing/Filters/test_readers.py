@@ -49,23 +49,25 @@ PROGRAMS = {
 
 #: What of a file comes back. faces: quads, or the triangles that the format or the program cuts them into. sets:
 #: patches by name, by number, as parts without either, or none. has_nodes: boundary loops, feature curves and corners
-#: by name. tolerance: of points, over the largest coordinate. has_copies: points once a block.
-Cell = collections.namedtuple("Cell", "faces sets has_nodes tolerance has_copies", defaults=(False, 0, False))
+#: by name. tolerance: of points, over the largest coordinate. has_copies: points once a block. has_patch_nodes: node
+#: sets of patches with a name, too.
+Cell = collections.namedtuple("Cell", "faces sets has_nodes tolerance has_copies has_patch_nodes",
+                              defaults=(False, 0, False, False))
 SINGLE = 6e-8  # half a bit of single precision
 DIGITS = 5e-6  # six digits
 
 CELLS = {
-    ("inp", "meshio"): Cell("quads", "names", True, 1e-14),  # 20 characters a number
-    ("inp", "CalculiX"): Cell("quads", "names", True, DIGITS),
+    ("inp", "meshio"): Cell("quads", "names", True, 1e-14, has_patch_nodes=True),  # 20 characters a number
+    ("inp", "CalculiX"): Cell("quads", "names", True, DIGITS, has_patch_nodes=True),
     ("msh", "meshio"): Cell("quads", "names", True),
     ("msh", "Gmsh"): Cell("quads", "names", True),
     ("msh", "PyVista"): Cell("quads", "parts"),
     ("mesh", "meshio"): Cell("quads", "parts"),
     ("mesh", "Gmsh"): Cell("quads", "parts"),
     ("mesh", "PyVista"): Cell("quads", "parts"),
-    ("exo", "meshio"): Cell("quads", "numbers", True),
-    ("exo", "VTK"): Cell("quads", "names", True, SINGLE, has_copies=True),
-    ("exo", "ParaView"): Cell("quads", "names", True, SINGLE, has_copies=True),
+    ("exo", "meshio"): Cell("quads", "numbers", True, has_patch_nodes=True),
+    ("exo", "VTK"): Cell("quads", "names", True, SINGLE, has_copies=True, has_patch_nodes=True),
+    ("exo", "ParaView"): Cell("quads", "names", True, SINGLE, has_copies=True, has_patch_nodes=True),
     ("exo", "PyVista"): Cell("quads", "names", tolerance=SINGLE, has_copies=True),
     **{(extension, program): Cell("quads", "numbers")
        for extension, programs in (("vtu", ("meshio", "VTK", "ParaView", "PyVista")),
@@ -130,7 +132,7 @@ def write_expected(path, data, names=None):
         numbers[str(patch)].append(place)
     expected = {"points": data.points.tolist(), "quads": [list(map(int, row)) for row in data.elements],
                 "names": {name: sorted(members) for name, members in sets.patches.items()}, "numbers": numbers,
-                "nodes": sets.node_sets()}
+                "nodes": sets.node_sets(), "patch_names": list((names or {}).values())}
     path.with_suffix(".expected.json").write_text(json.dumps(expected))
 
 
@@ -223,6 +225,10 @@ class Comparison:
         if self.cell.has_nodes:
             found = {name.upper(): {self.places[i] for i in members} for name, members in self.read["nodes"].items()
                      if name != "NALL"}
+            if self.cell.has_patch_nodes:
+                for name in self.expected["patch_names"]:
+                    wanted = {node for i in self.expected["names"][name] for node in self.quads[i]}
+                    self.test.assertEqual(found.pop(name), wanted, name)
             self.test.assertEqual(quad_meshes.by_kind(found), self.expected["nodes"])
 
     def check(self):

@@ -329,6 +329,27 @@ TEST(MeshSets, PatchesOfOneNameAreOneSet)
   EXPECT_EQ(sets.patches[0].name, "PATCH_MINUS_7"); // by the numbers
   EXPECT_EQ(sets.patches[1].name, "ends");
   EXPECT_EQ(sets.patches[1].elements, (std::vector<Index>{ 0, 5 }));
+  EXPECT_FALSE(sets.patches[0].isNamed);
+  EXPECT_TRUE(sets.patches[1].isNamed);
+  EXPECT_EQ(nodesOf(mesh, sets.patches[1]).size(), 8U); // two sides across from each other have all
+}
+
+/// Each node once, shared or not; those of other patches only where they lie on the border.
+TEST(MeshSets, NodesOfPatchesAreThoseOfTheirElements)
+{
+  ElementMesh mesh = flatGrid(3, 1);
+  mesh.patches.push_back({ 2, "right" });
+  mesh.patchOf = { 0, 0, 1 };
+  EXPECT_EQ(nodesOf(mesh, setsOf(mesh).patches[0]), (std::vector<Index>{ 0, 1, 2, 4, 5, 6 }));
+  EXPECT_EQ(nodesOf(mesh, setsOf(mesh).patches[1]), (std::vector<Index>{ 2, 3, 6, 7 }));
+  for (const int nodes : { 8, 9 })
+  {
+    const ElementMesh larger = secondOrder(mesh, nodes);
+    const MeshSets sets = setsOf(larger);
+    // Two elements side by side: 6 corners, 7 middles of edges, and of 9 nodes 2 centres.
+    EXPECT_EQ(nodesOf(larger, sets.patches[0]).size(), nodes == 8 ? 13U : 15U);
+    EXPECT_EQ(nodesOf(larger, sets.patches[1]).size(), static_cast<std::size_t>(nodes));
+  }
 }
 
 TEST(MeshSets, PatchesWithoutElementsAreNoSets)
