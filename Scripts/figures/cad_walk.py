@@ -46,6 +46,10 @@ BORE, 3, {force:.10g}
 U
 *NODE PRINT, NSET=SUPPORT, TOTALS=ONLY
 RF
+*NODE FILE, OUTPUT=2D
+U
+*EL FILE, OUTPUT=2D
+S
 *END STEP"""
 
 
@@ -96,28 +100,31 @@ def draw(solved, path):
     around = [node for begin, _, middle in elements.edges(8) for node in (begin, middle)]
     rings = mesh.blocks[8][:, around]
     figure = plt.figure(figsize=(10, 7))
-    axes = figure.add_axes((-0.06, -0.08, 0.96, 1.1), projection="3d")
+    axes = figure.add_axes((-0.03, -0.1, 0.92, 1.2), projection="3d")
     shown = Poly3DCollection((mesh.points + factor * moved)[rings], edgecolors="k", linewidths=0.4)
     shown.set_array(1000 * np.linalg.norm(moved, axis=1)[rings].mean(1))
     shown.set_cmap("turbo")
     axes.add_collection3d(shown)
     low, high = mesh.points.min(0), mesh.points.max(0)
-    axes.add_collection3d(Line3DCollection(box_edges(low, high), colors="#555555", linewidths=1.2, linestyles="--"))
+    axes.add_collection3d(Line3DCollection(seen_edges(low, high), colors="#555555", linewidths=1.2, linestyles="--"))
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low, zoom=1.15)
+    axes.set_box_aspect(high - low, zoom=0.95)
     axes.view_init(34, -52)
     axes.set_axis_off()
     bar = figure.colorbar(shown, cax=figure.add_axes((0.87, 0.18, 0.025, 0.62)))
     bar.set_label("displacement, µm", fontsize=15)
     bar.ax.tick_params(labelsize=14)
-    figure.text(0.03, 0.93, f"drawn {factor:g} times as large", fontsize=15)
+    figure.text(0.03, 0.06, f"drawn {factor:g} times as large\ndashed: without the load", fontsize=15)
     figure.savefig(path, dpi=100)
     plt.close(figure)
 
 
-def box_edges(low, high):
+def seen_edges(low, high):
+    """Edges of a box but those of the corner that is farthest from the camera, at low x, high y, low z."""
+    hidden = 2
     corners = [np.where([i & 1, i & 2, i & 4], high, low) for i in range(8)]
-    return [(corners[i], corners[i | bit]) for i in range(8) for bit in (1, 2, 4) if not i & bit]
+    ends = [(i, i | bit) for i in range(8) for bit in (1, 2, 4) if not i & bit]
+    return [(corners[i], corners[j]) for i, j in ends if hidden not in (i, j)]
 
 
 def main():

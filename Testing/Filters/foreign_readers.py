@@ -262,8 +262,8 @@ def read_calculix(path):
         raise ValueError(told)
     found = of_frd(job.with_suffix(".frd"))
     printed = printed_sets(job.with_suffix(".dat").read_text())
-    found.nodes = {name: sorted(printed[name]) for name in nodes}
-    found.sets = {name: sorted(printed[name]) for name in elements}
+    found.nodes = {name: sorted(printed["displacements", name]) for name in nodes}
+    found.sets = {name: sorted(printed["stresses", name]) for name in elements}
     return found
 
 
@@ -281,12 +281,13 @@ def of_frd(path):
 
 
 def printed_sets(text):
-    """Members, from 0, of the tables of CalculiX."""
+    """Members, from 0, of the tables of CalculiX, by what is printed and the set: a node set and an element set may
+    have one name."""
     found, members = {}, None
     for line in text.splitlines():
-        title = re.search(r"for set (\S+) and time", line)
+        title = re.search(r"(\w+) \(.*for set (\S+) and time", line)
         if title:
-            members = found.setdefault(title.group(1), set())
+            members = found.setdefault(title.groups(), set())
         elif line.strip() and members is not None:
             members.add(int(line.split()[0]) - 1)
     return found
