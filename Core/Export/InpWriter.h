@@ -8,8 +8,8 @@
 ///   NALL, EALL     all nodes, all elements; both numbered from 1 in the order of the mesh
 ///   element sets   one a patch; of each boundary loop NAME_E1 to NAME_E4, the elements that have their side 1 to 4 on
 ///                  it, for *DLOAD with EDNOR1 to EDNOR4
-///   node sets      one a boundary loop, feature curve and corner, and one a patch with a name of its own, which is that
-///                  of its element set; with the nodes in the middle of edges
+///   node sets      one a boundary loop, feature curve and corner, with the nodes in the middle of edges; one a patch
+///                  that has a name, of the name of its element set
 ///   surfaces       one a boundary loop, and one a curve with a name of its own, NAME_EDGES
 ///   thickness      up to 64 different values: a section each; more: *NODAL THICKNESS, of each node the average of its
 ///                  elements by area

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Sets of a mesh for loads and supports: elements by patch, boundary loops, feature curves and corners, from the mesh
-/// alone.
+/// Sets of a mesh for loads and supports: elements and nodes by patch, boundary loops, feature curves and corners, from
+/// the mesh alone.
 ///
 /// Edges of one element are boundary, marked edges between elements are features. Corners are the nodes where other
 /// than two of both meet (a feature ends, branches, or runs into the boundary), and those where a loop or curve bends
