@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/WorkCount.h"
 
+#include <algorithm>
+
 namespace quadrille
 {
 
@@ -34,6 +36,16 @@ void countWork(std::size_t units)
   {
     throw WorkSpent();
   }
+}
+
+std::size_t workLeft()
+{
+  std::size_t left = std::numeric_limits<std::size_t>::max();
+  for (const WorkScope* scope = innermostWork; scope != nullptr; scope = scope->outer_)
+  {
+    left = std::min(left, scope->most_ - std::min(scope->most_, scope->done_));
+  }
+  return left;
 }
 
 } // namespace quadrille

@@ -36,6 +36,7 @@ public:
 
 private:
   friend void countWork(std::size_t units);
+  friend std::size_t workLeft();
 
   WorkScope* outer_;
   std::size_t most_;
@@ -45,5 +46,8 @@ private:
 /// Adds to the scopes of the thread, if there are any. Call it from the thread that makes the run only, and only with
 /// numbers that do not depend on threads: then a run ends at the same place for any number of them.
 void countWork(std::size_t units);
+
+/// What the scopes of the thread have left; the largest number where none has a bound.
+std::size_t workLeft();
 
 } // namespace quadrille

@@ -31,6 +31,25 @@ Index endOf(const Mesh& mesh, const CurveStep& step)
   return step.forwards ? mesh.target(step.h) : mesh.origin[step.h];
 }
 
+/// Per half-edge of the boundary the number of its loop; kInvalidIndex inside.
+std::vector<Index> boundaryLoops(const Mesh& mesh, Index& count)
+{
+  std::vector<Index> loopOf(mesh.halfEdgeCount(), kInvalidIndex);
+  count = 0;
+  for (Index first = 0; first < mesh.halfEdgeCount(); ++first)
+  {
+    if (mesh.isBoundary(first) && loopOf[first] == kInvalidIndex)
+    {
+      for (Index h = first; loopOf[h] == kInvalidIndex; h = nextOnBoundary(mesh, h))
+      {
+        loopOf[h] = count;
+      }
+      ++count;
+    }
+  }
+  return loopOf;
+}
+
 } // namespace
 
 FaceCurves::FaceCurves(const Mesh& mesh, std::vector<std::uint8_t> isGiven, double edgeLength)
@@ -40,18 +59,7 @@ FaceCurves::FaceCurves(const Mesh& mesh, std::vector<std::uint8_t> isGiven, doub
   Mesh opened = mesh;
   cutOpenAtFeatures(opened);
   faceOf_ = faceComponents(opened, faces_);
-  loopOf_.assign(mesh.halfEdgeCount(), kInvalidIndex);
-  for (Index first = 0; first < mesh.halfEdgeCount(); ++first)
-  {
-    if (opened.isBoundary(first) && loopOf_[first] == kInvalidIndex)
-    {
-      for (Index h = first; loopOf_[h] == kInvalidIndex; h = nextOnBoundary(opened, h))
-      {
-        loopOf_[h] = loops_;
-      }
-      ++loops_;
-    }
-  }
+  loopOf_ = boundaryLoops(opened, loops_);
   for (const Index h : edges_)
   {
     at_[mesh.origin[h]].push_back(h);
@@ -193,12 +201,14 @@ void FaceCurves::setGiven(std::vector<CurvePoint> points)
     }
   }
   const std::vector<Index> ends = endsOnGiven();
+  Index loops = 0;
+  const std::vector<Index> loopOf = boundaryLoops(mesh_, loops);
   std::vector<std::tuple<double, Index, std::size_t>> pairs; // the nearest first
   for (const Index h : ends)
   {
     for (std::size_t i = 0; i < given_.size(); ++i)
     {
-      if (loopOf_[given_[i].h] == loopOf_[h])
+      if (loopOf[given_[i].h] == loopOf[h])
       {
         const Vector3 way =
           positionOf(mesh_, given_[i].onSurface()) - mesh_.position[mesh_.origin[h]];

@@ -399,6 +399,10 @@ private:
     {
       throw SpentInFaces(ofWhole(part, spent.faces));
     }
+    catch (const QuantizingSpent& spent)
+    {
+      throw SpentInFaces(ofWhole(part, { spent.faces, {} }));
+    }
     catch (const WorkSpent&)
     {
       throw SpentInFaces(ofWhole(part, before));
@@ -454,7 +458,8 @@ private:
 
   bool makeIntegers(Component& component, const ProgressCallback& progress)
   {
-    QuantizeResult quantized = quantize(component, component.seamlessUv, {}, progress);
+    QuantizeResult quantized = madeOrTold(
+      component.part, {}, [&] { return quantize(component, component.seamlessUv, {}, progress); });
     if (!quantized.status.ok())
     {
       if (!component.hasIntegers)

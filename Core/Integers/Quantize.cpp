@@ -310,7 +310,14 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   }
   if (!start.valid)
   {
-    start = findValidIntegers(integers, 1, kMaximumScale, options.progress);
+    try
+    {
+      start = findValidIntegers(integers, 1, kMaximumScale, options.progress);
+    }
+    catch (const WorkSpent&)
+    {
+      throw QuantizingSpent(brokenFaces(integers));
+    }
   }
   if (!start.valid)
   {

@@ -5,8 +5,10 @@
 
 #include "Base/FixedPoint.h"
 #include "Base/Progress.h"
+#include "Base/WorkCount.h"
 #include "CrossField/CrossField.h"
 
+#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -36,6 +38,14 @@ struct QuantizeResult
   /// integers; empty where that is not known.
   std::vector<Index> failedFaces;
 };
+/// Thrown by quantizeMap() in place of WorkSpent where it had no valid integers yet: faces as QuantizeResult has them.
+class QuantizingSpent : public WorkSpent
+{
+public:
+  explicit QuantizingSpent(std::vector<Index> broken) : faces(std::move(broken)) {}
+  std::vector<Index> faces;
+};
+
 /// Integers for a seamless map without a T-mesh [Coudert-Osmont et al. 2023].
 QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   const std::vector<FixedVec2>& seamlessUv, const QuantizeOptions& options);

@@ -3,6 +3,7 @@
 #include "Integers/QuantizeIntegers.h"
 
 #include "Base/TryCount.h"
+#include "Base/WorkCount.h"
 #include "Integers/StripSearch.h"
 #include "Integers/StripSteps.h"
 
@@ -576,7 +577,15 @@ std::vector<Index> brokenFaces(const IntegerMap& map)
 
 void improveIntegers(IntegerMap& map, const ProgressCallback& progress)
 {
-  Improvement(map).run(progress);
+  const WorkScope scope(workLeft() / 2);
+  try
+  {
+    Improvement(map).run(progress);
+  }
+  catch (const WorkSpent&)
+  {
+    // What was improved so far is valid; where the whole bound is reached, the next step tells.
+  }
 }
 
 } // namespace quadrille

@@ -30,7 +30,7 @@ IntegerStart repairIntegers(IntegerMap& map);
 /// The triangles that are not closed, or not sound, where the map is not valid.
 std::vector<Index> brokenFaces(const IntegerMap& map);
 
-/// Lowers the energy of a valid map until nothing helps; it stays valid.
+/// Lowers the energy of a valid map until nothing helps, or half of the work that is left is done; it stays valid.
 void improveIntegers(IntegerMap& map, const ProgressCallback& progress);
 
 } // namespace quadrille

@@ -189,6 +189,15 @@ public:
     {
       boundary_.emplace(cut);
     }
+    const Mesh& mesh = cut.faces.mesh;
+    beforeOnBoundary_.assign(mesh.halfEdgeCount(), kInvalidIndex);
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      if (mesh.isBoundary(h))
+      {
+        beforeOnBoundary_[nextOnBoundary(mesh, h)] = h;
+      }
+    }
   }
 
   FilledPart make()
@@ -228,7 +237,8 @@ private:
     return cut_.faces.mesh.middleOfFace(static_cast<Index>(found - faceOf.begin()));
   }
 
-  /// The points of the rest on the common boundary.
+  /// The points of the rest on the common boundary. Where that ends, and goes on as a boundary of the rest alone, the
+  /// rest need not have a point: the nearer one of those on both sides of the end is led there.
   void findShared()
   {
     points_.clear();
@@ -250,16 +260,53 @@ private:
       }
     }
     const std::vector<Vector3>& points = restQuads_->points;
+    std::map<Index, CurvePoint> onShared;
     for (const auto& [p, beside] : neighbours)
     {
       const auto place = boundary_->at(
         points[p], { points[beside[0]], points[beside[1]] }, kSameBoundary * edgeLength_);
       if (place)
       {
-        points_.push_back(p);
-        places_.push_back(*place);
+        onShared.emplace(p, *place);
       }
     }
+    std::map<Index, CurvePoint> atEnds;
+    for (const auto& [p, place] : onShared)
+    {
+      for (const std::size_t side : { 0, 1 })
+      {
+        const Index beyond = neighbours[p][side];
+        if (onShared.count(beyond) != 0)
+        {
+          continue;
+        }
+        const CurvePoint end = endOfShared(place.h, side == 0);
+        const Vector3 there = positionOf(cut_.faces.mesh, end.onSurface());
+        if ((points[beyond] - there).norm() < (points[p] - there).norm())
+        {
+          atEnds.emplace(beyond, end);
+        }
+      }
+    }
+    onShared.insert(atEnds.begin(), atEnds.end());
+    for (const auto& [p, place] : onShared)
+    {
+      points_.push_back(p);
+      places_.push_back(place);
+    }
+  }
+
+  /// Where the common boundary goes on alone: the end of the shared part that a half-edge lies on.
+  CurvePoint endOfShared(Index h, bool forwards) const
+  {
+    const auto beside = [&](Index at)
+    { return forwards ? nextOnBoundary(cut_.faces.mesh, at) : beforeOnBoundary_[at]; };
+    const Index first = h;
+    for (Index next = beside(h); cut_.isShared[next] != 0 && next != first; next = beside(h))
+    {
+      h = next;
+    }
+    return { h, forwards ? 1.0 : 0.0 };
   }
 
   /// From the first of the odd groups to another one, or to a boundary that is free. False where no path leads there.
@@ -322,7 +369,8 @@ private:
   double edgeLength_;
   FaceCurves curves_;
   std::optional<SharedBoundary> boundary_;
-  std::vector<Index> points_; ///< of the rest, on the common boundary
+  std::vector<Index> beforeOnBoundary_; ///< #H, as nextOnBoundary the other way
+  std::vector<Index> points_;           ///< of the rest, on the common boundary
   std::vector<CurvePoint> places_;
 };
 

@@ -297,8 +297,8 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
   {
     const std::size_t work = boundOf(sized).work;
     SizedSurface& rest = cut.rest->sized;
-    rest.work = std::max(work - std::min(work, history.work()),
-      leastOfPart(rest.surface->mesh.faceCount(), rest.targetQuads));
+    rest.work = std::max({ work - std::min(work, history.work()), work / 2,
+      leastOfPart(rest.surface->mesh.faceCount(), rest.targetQuads) });
     Settled own = settleDetails(rest, options, asked.store);
     remeshSettled(own, rest, { asked.frame, options, asked.store, asked.quadsAlone }, made);
     settled.decimations += own.decimations;

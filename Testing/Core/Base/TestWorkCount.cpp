@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <thread>
 
 namespace quadrille
@@ -45,4 +47,19 @@ TEST(WorkCount, TheBoundOfAnOuterScopeHoldsInside)
 }
 
 } // namespace
+TEST(WorkCount, WhatIsLeftIsThatOfTheNarrowestScope)
+{
+  EXPECT_EQ(workLeft(), std::numeric_limits<std::size_t>::max());
+  const WorkScope outer(10);
+  countWork(4);
+  EXPECT_EQ(workLeft(), 6U);
+  {
+    const WorkScope inner(3);
+    EXPECT_EQ(workLeft(), 3U);
+    countWork(3);
+    EXPECT_EQ(workLeft(), 0U);
+  }
+  EXPECT_EQ(workLeft(), 3U);
+}
+
 } // namespace quadrille

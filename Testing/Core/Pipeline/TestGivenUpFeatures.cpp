@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// What a run tells of sharp edges that its quads do not follow.
+#include "Pipeline/FaceDivision.h"
 #include "Pipeline/Pipeline.h"
 #include "Prepare/Prepare.h"
 
@@ -16,7 +17,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace quadrille
 {
@@ -185,6 +189,52 @@ TEST(GivenUpFeatures, FacesOfADesignAreFilled)
   const RemeshResult again = remesh(input, options);
   EXPECT_EQ(again.quads.points, result.quads.points);
   EXPECT_EQ(again.quads.quads, result.quads.quads);
+}
+
+/// The left half of a plate is cut out. Quads of the right half have no points at the ends of the line between them, but
+/// near them on the outer boundary, which is none of the left half.
+TEST(FaceDivision, PointsBesideTheEndsOfTheCutAreLedThere)
+{
+  const Mesh mesh = test::gridPlane(8, 4);
+  const auto isOnLine = [&](Index h)
+  { return mesh.position[mesh.origin[h]].x() == 4 && mesh.position[mesh.target(h)].x() == 4; };
+  SurfaceInput input = test::toInput(mesh);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    std::uint8_t bits = 0;
+    for (Index i = 0; i < 3; ++i)
+    {
+      bits = static_cast<std::uint8_t>(bits | (isOnLine(3 * f + i) ? 1U << i : 0U));
+    }
+    input.featureEdges.push_back(bits);
+  }
+  PreparedSurface prepared = prepareSurface(input, {});
+  std::vector<Index> left;
+  for (Index f = 0; f < prepared.mesh.faceCount(); ++f)
+  {
+    if (prepared.mesh.middleOfFace(f).x() < 4)
+    {
+      left.push_back(f);
+    }
+  }
+  SizedSurface whole;
+  whole.surface = std::make_shared<const PreparedSurface>(std::move(prepared));
+  whole.edgeLength = 1;
+  whole.targetQuads = 32;
+  const CutFaces cut = cutFaces(whole, { left, {} }, 1);
+  ASSERT_TRUE(cut.rest);
+  QuadMesh quads;
+  quads.points = { Vector3(4.1, 0, 0), Vector3(8, 0, 0), Vector3(8, 1.4, 0), Vector3(4, 1.4, 0),
+    Vector3(8, 2.7, 0), Vector3(4, 2.7, 0), Vector3(8, 4, 0), Vector3(4.2, 4, 0) };
+  quads.quads = { { 0, 1, 2, 3 }, { 3, 2, 4, 5 }, { 5, 4, 6, 7 } };
+  const Mesh& restMesh = cut.rest->sized.surface->mesh;
+  const FilledPart filled = fillCutFaces(cut, &restMesh, &quads, 1);
+  EXPECT_TRUE(filled.failedAt.empty());
+  ASSERT_EQ(filled.points, std::vector<Index>({ 0, 3, 5, 7 }));
+  EXPECT_EQ(filled.quads.points[0], Vector3(4, 0, 0));
+  EXPECT_LT((filled.quads.points[1] - quads.points[3]).norm(), 1e-9);
+  EXPECT_LT((filled.quads.points[2] - quads.points[5]).norm(), 1e-9);
+  EXPECT_EQ(filled.quads.points[3], Vector3(4, 4, 0));
 }
 
 } // namespace
