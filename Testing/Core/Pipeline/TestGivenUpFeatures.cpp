@@ -191,8 +191,8 @@ TEST(GivenUpFeatures, FacesOfADesignAreFilled)
   EXPECT_EQ(again.quads.quads, result.quads.quads);
 }
 
-/// The left half of a plate is cut out. Quads of the right half have no points at the ends of the line between them, but
-/// near them on the outer boundary, which is none of the left half.
+/// The left half of a plate is cut out. Quads of the right half have no points at the ends of the line between them,
+/// but near them on the outer boundary, which is none of the left half.
 TEST(FaceDivision, PointsBesideTheEndsOfTheCutAreLedThere)
 {
   const Mesh mesh = test::gridPlane(8, 4);
