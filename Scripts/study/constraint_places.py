@@ -311,8 +311,9 @@ class Model:
             return None
         cut = line[numpy.argmin(tree.query(line)[0])]
         legs = [self.surface.straight(a, b, compare=True) for a, b in ((start, cut), (cut, end))]
-        return None if None in [leg is None or None for leg in legs] else (
-            [cut, end], numpy.concatenate((legs[0], legs[1][1:])))
+        if any(leg is None for leg in legs):
+            return None
+        return [cut, end], numpy.concatenate((legs[0], legs[1][1:]))
 
     def can_be_drawn(self, course, points):
         """Whether quads have room on both sides: no sharp turn, no place twice, off features but where it crosses."""
