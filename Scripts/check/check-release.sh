@@ -52,6 +52,7 @@ checked() # NAME SCRIPT ARGUMENT...: in mounts of its own
 
 timed install "Scripts/build/install-dependencies.sh --tests"
 timed packages "Scripts/build/make-packages.sh"
+timed alone "/usr/bin/python3 Testing/Repository/check_alone.py . c++ build-alone /usr/include/eigen3"
 timed wheel "QUADRILLE_CORE_FROM=build-packages/paraview Scripts/build/make-wheel.sh"
 cp -r "$root/root/quadrille/out/packages" "$root/root/quadrille/out/wheels" "$results/"
 status=0
