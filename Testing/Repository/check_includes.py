@@ -94,7 +94,8 @@ def selftest():
 def main():
     selftest()
     core = pathlib.Path(sys.argv[1]) / "Core"
-    texts = {str(path.relative_to(core)): path.read_text() for path in core.rglob("*.*") if path.suffix in (".h", ".cpp")}
+    texts = {str(path.relative_to(core)): path.read_text()
+             for path in core.rglob("*.*") if path.suffix in (".h", ".cpp")}
     found = list(problems(texts))
     print("\n".join(found) or f"includes: {len(texts)} files, fine")
     return 1 if found or not texts else 0
