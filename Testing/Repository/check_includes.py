@@ -88,7 +88,8 @@ def selftest():
     assert declared(header) == {"Part", "countOf"}, declared(header)
     source = "namespace quadrille\n{\nint twice(int a)\n{\n  return 2 * countOf(a); // Part\n}\n}\n"
     assert len(list(problems({"A/A.h": header, "B/B.cpp": source}))) == 1
-    assert not list(problems({"A/A.h": header, "B/B.h": '#include "A/A.h"\n', "B/B.cpp": '#include "B/B.h"\n' + source}))
+    between = {"B/B.h": '#include "A/A.h"\n', "B/B.cpp": '#include "B/B.h"\n' + source}
+    assert not list(problems({"A/A.h": header, **between}))
 
 
 def main():
