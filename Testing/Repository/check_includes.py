@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every source and header of Core includes, itself or by what it includes, a header that declares each name of Core that
-it uses: with QUADRILLE_UNITY_BUILD several sources are compiled as one, which would not notice.
+"""Every source and header of Core includes, itself or by what it includes, a header that declares each name of Core
+that it uses: with QUADRILLE_UNITY_BUILD several sources are compiled as one, which would not notice.
 
   check_includes.py SOURCE_DIR
 
 Names are those that headers declare in the namespace quadrille: types, constants, and functions where they are called.
 A name that the file or what it includes declares in any way, a member or a variable, counts as known. It takes two
-seconds; check_alone.py, which compiles each source alone, sees more (headers of the standard library, types that are
-only declared) and takes minutes: Scripts/check/check-release.sh runs it.
+seconds; check_alone.py, which compiles each source alone, sees more (headers of the standard library, types that
+are only declared) and takes minutes: Scripts/check/check-release.sh runs it.
 """
 import pathlib
 import re
