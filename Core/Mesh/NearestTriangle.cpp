@@ -132,14 +132,19 @@ private:
 
   double distanceTo(int box) const { return tree_.getVolume(box).squaredExteriorDistance(p_); }
 
+  /// The normal of a triangle; where a segment leads.
+  Vector3 wayOf(const Corners& corners, Index t) const
+  {
+    const Vector3 along = corners[1] - corners[0];
+    const bool isSegment = triangles_.corners[t][0] == triangles_.corners[t][2];
+    return isSegment ? along : Vector3(along.cross(corners[2] - corners[0]));
+  }
+
   /// Of triangles at the same distance the one with the lowest id.
   void test(Index t)
   {
     const Corners corners = cornersOf(triangles_, t);
-    const Vector3 along = corners[1] - corners[0];
-    const bool isSegment = triangles_.corners[t][0] == triangles_.corners[t][2];
-    const Vector3 side = isSegment ? along : Vector3(along.cross(corners[2] - corners[0]));
-    if (isFacing_ && !(side.dot(facing_) > 0))
+    if (isFacing_ && !(wayOf(corners, t).dot(facing_) > 0))
     {
       return;
     }

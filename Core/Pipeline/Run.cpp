@@ -83,13 +83,12 @@ void makeQuadsOfRound(RunContext& run, History& history)
 /// Whether what has no quads is made in parts: components, or faces between features.
 bool isLeftToParts(const SizedSurface& sized, const RemeshOptions& options, const History& history)
 {
-  return !history.hasResult() &&
-    (isDivided(sized, history) || isCutAtFaces(*sized.surface, options, history));
+  return isDivided(sized, history) || isCutAtFaces(*sized.surface, options, history);
 }
 
 /// Rounds of attempts until one is good or nothing is left to try: maps until one is good or no other would be better,
-/// then the quads of the best one. isLast: where no attempt has quads, nothing follows. Where the surface is divided
-/// after a failure, the first one is the end.
+/// then the quads of the best one. isLast: where no attempt has quads, nothing follows. Where the surface is left to
+/// its parts after a failure, the first one is the end.
 /// After a stop result.stopped tells what was tried, and the quads so far are the result, or those of a map that is
 /// there already; throws Cancelled without any.
 void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> plan, bool isLast,
