@@ -10,6 +10,7 @@
 #include "Extraction/FreeBoundary.h"
 #include "Extraction/HoleFilling.h"
 #include "Extraction/QuadAssembly.h"
+#include "Filling/QuadRepair.h"
 #include "Quads/QuadSmoothing.h"
 #include "Quads/QuadTopology.h"
 #include "Quads/QuadUntangling.h"
@@ -365,6 +366,10 @@ ExtractionResult extractQuads(
     if (options.smoothingSteps > 0)
     {
       untangleQuads(mesh, result.mesh, { options.fixedVertices, options.threads });
+      if (options.replacesBad)
+      {
+        repairQuads(mesh, result.mesh, options.fixedVertices, options.threads);
+      }
     }
   }
   report(options.progress, 1, "extraction done");

@@ -44,6 +44,8 @@ struct ExtractionOptions
   /// Sweeps of tangential smoothing on the input surface afterwards (see QuadSmoothing.h), >= 0, before quads that are
   /// inverted are mended (see QuadUntangling.h); 0: the points stay where the map has them.
   int smoothingSteps = 5;
+  /// Whether bad quads that this leaves are replaced by others (see QuadRepair.h).
+  bool replacesBad = true;
   /// Vertices of the mesh, ascending, whose quad vertices smoothing must not move (irregular ones that were asked for).
   std::vector<Index> fixedVertices;
   std::vector<FaceGuide> guides; ///< see SmoothingOptions

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <set>
 #include <tuple>
 
@@ -21,28 +20,20 @@ namespace
 /// A curve that bends by more than this has a corner, where the quads have a point.
 constexpr double kCurveCorner = 0.5235987755982988; // 30 degrees
 
-Index beginOf(const Mesh& mesh, const CurveStep& step)
-{
-  return step.forwards ? mesh.origin[step.h] : mesh.target(step.h);
-}
-
-Index endOf(const Mesh& mesh, const CurveStep& step)
-{
-  return step.forwards ? mesh.target(step.h) : mesh.origin[step.h];
-}
-
-/// Per half-edge of the boundary the number of its loop; kInvalidIndex inside.
-std::vector<Index> boundaryLoops(const Mesh& mesh, Index& count)
+/// Per half-edge of the boundary the number of its loop; kInvalidIndex inside. next: the half-edge after it.
+std::vector<Index> boundaryLoops(const Mesh& mesh, Index& count, std::vector<Index>& next)
 {
   std::vector<Index> loopOf(mesh.halfEdgeCount(), kInvalidIndex);
+  next.assign(mesh.halfEdgeCount(), kInvalidIndex);
   count = 0;
   for (Index first = 0; first < mesh.halfEdgeCount(); ++first)
   {
     if (mesh.isBoundary(first) && loopOf[first] == kInvalidIndex)
     {
-      for (Index h = first; loopOf[h] == kInvalidIndex; h = nextOnBoundary(mesh, h))
+      for (Index h = first; loopOf[h] == kInvalidIndex; h = next[h])
       {
         loopOf[h] = count;
+        next[h] = nextOnBoundary(mesh, h);
       }
       ++count;
     }
@@ -59,7 +50,7 @@ FaceCurves::FaceCurves(const Mesh& mesh, std::vector<std::uint8_t> isGiven, doub
   Mesh opened = mesh;
   cutOpenAtFeatures(opened);
   faceOf_ = faceComponents(opened, faces_);
-  loopOf_ = boundaryLoops(opened, loops_);
+  loopOf_ = boundaryLoops(opened, loops_, nextOnLoop_);
   for (const Index h : edges_)
   {
     at_[mesh.origin[h]].push_back(h);
@@ -85,7 +76,7 @@ bool FaceCurves::isNode(Index v) const
 
 std::optional<CurveStep> FaceCurves::stepAfter(const CurveStep& step) const
 {
-  const Index v = endOf(mesh_, step);
+  const Index v = endOf(step);
   if (isNode(v))
   {
     return std::nullopt;
@@ -107,7 +98,7 @@ FaceCurve FaceCurves::trace(CurveStep first, std::vector<std::uint8_t>& isDone) 
     curve.steps.push_back(*step);
     curve.length += sizedLength(mesh_, step->h) / edgeLength_;
   }
-  curve.closed = endOf(mesh_, curve.steps.back()) == beginOf(mesh_, first);
+  curve.closed = endOf(curve.steps.back()) == beginOf(first);
   return curve;
 }
 
@@ -122,7 +113,7 @@ void FaceCurves::findCurves()
       for (const bool forwards : { true, false })
       {
         const CurveStep step{ h, forwards };
-        if (isGiven_[h] == 0 && isDone[h] == 0 && isNode(beginOf(mesh_, step)) == fromNodes)
+        if (isGiven_[h] == 0 && isDone[h] == 0 && isNode(beginOf(step)) == fromNodes)
         {
           curves_.push_back(trace(step, isDone));
         }
@@ -133,7 +124,7 @@ void FaceCurves::findCurves()
   std::set<std::pair<Index, Index>> ends;
   for (FaceCurve& curve : curves_)
   {
-    const Index a = beginOf(mesh_, curve.steps.front()), b = endOf(mesh_, curve.steps.back());
+    const Index a = beginOf(curve.steps.front()), b = endOf(curve.steps.back());
     const bool isFirst = ends.insert(std::minmax(a, b)).second;
     curve.least = curve.closed ? 3 : isFirst ? 1 : 2;
   }
@@ -202,7 +193,8 @@ void FaceCurves::setGiven(std::vector<CurvePoint> points)
   }
   const std::vector<Index> ends = endsOnGiven();
   Index loops = 0;
-  const std::vector<Index> loopOf = boundaryLoops(mesh_, loops);
+  std::vector<Index> next;
+  const std::vector<Index> loopOf = boundaryLoops(mesh_, loops, next);
   std::vector<std::tuple<double, Index, std::size_t>> pairs; // the nearest first
   for (const Index h : ends)
   {
@@ -229,108 +221,23 @@ void FaceCurves::setGiven(std::vector<CurvePoint> points)
   }
 }
 
-std::vector<Index> FaceCurves::chooseNumbers()
+std::vector<CurvePoint> FaceCurves::pointsAlong(const FaceCurve& curve) const
 {
-  std::vector<std::size_t> around(faces_, 0), aroundLoop(loops_, 0);
-  const auto add = [&](FaceCurve& curve, std::size_t edges)
+  std::vector<CurvePoint> points;
+  const double apart = curve.length / static_cast<double>(curve.edges);
+  double gone = 0;
+  std::size_t next = 1;
+  for (const CurveStep& step : curve.steps)
   {
-    curve.edges += edges;
-    for (const std::size_t side : { 0, 1 })
+    const double length = sizedLength(mesh_, step.h) / edgeLength_;
+    for (; next < curve.edges && apart * static_cast<double>(next) < gone + length; ++next)
     {
-      if (curve.faces[side] != kInvalidIndex)
-      {
-        around[curve.faces[side]] += edges;
-        aroundLoop[curve.loops[side]] += edges;
-      }
+      const double part = (apart * static_cast<double>(next) - gone) / length;
+      points.push_back({ step.h, step.forwards ? part : 1 - part });
     }
-  };
-  for (const CurvePoint& point : given_)
-  {
-    around[faceOf_[Mesh::face(point.h)]] += isGiven_[point.h];
-    aroundLoop[loopOf_[point.h]] += isGiven_[point.h];
+    gone += length;
   }
-  for (FaceCurve& curve : curves_)
-  {
-    curve.edges = 0;
-    add(curve, std::max(curve.least, static_cast<std::size_t>(std::llround(curve.length))));
-  }
-  // Two edges round a face, or round a hole in it, would lie on each other.
-  const auto hasFewer = [&](const FaceCurve& curve, std::size_t least)
-  {
-    return std::any_of(curve.loops.begin(), curve.loops.end(),
-      [&](Index loop) { return loop != kInvalidIndex && aroundLoop[loop] < least; });
-  };
-  for (FaceCurve& curve : curves_)
-  {
-    const bool isTight = std::any_of(curve.faces.begin(), curve.faces.end(),
-      [&](Index f) { return f != kInvalidIndex && around[f] < 4; });
-    if ((isTight || hasFewer(curve, 3)) && curve.edges < 3)
-    {
-      add(curve, 2);
-    }
-  }
-  // A tree over the faces of each group, and over what is outside, where one is reached: from its leaves on an odd face
-  // passes an edge on to the one before it.
-  std::vector<std::vector<std::pair<std::size_t, Index>>> beside(std::size_t{ faces_ } + 1);
-  for (std::size_t c = 0; c < curves_.size(); ++c)
-  {
-    const Index a = curves_[c].faces[0];
-    const Index b = curves_[c].faces[1] == kInvalidIndex ? faces_ : curves_[c].faces[1];
-    if (a != b)
-    {
-      beside[a].emplace_back(c, b);
-      beside[b].emplace_back(c, a);
-    }
-  }
-  std::vector<std::uint8_t> isReached(std::size_t{ faces_ } + 1, 0);
-  std::vector<std::pair<Index, std::size_t>> order; // face, the curve that leads to it
-  std::vector<Index> before(std::size_t{ faces_ } + 1, kInvalidIndex);
-  std::vector<Index> roots;
-  for (Index i = 0; i <= faces_; ++i)
-  {
-    const Index root = i == 0 ? faces_ : i - 1; // what is outside comes first
-    if (isReached[root] != 0)
-    {
-      continue;
-    }
-    isReached[root] = 1;
-    roots.push_back(root);
-    std::deque<Index> queue{ root };
-    while (!queue.empty())
-    {
-      const Index face = queue.front();
-      queue.pop_front();
-      for (const auto& [c, next] : beside[face])
-      {
-        if (isReached[next] == 0)
-        {
-          isReached[next] = 1;
-          before[next] = face;
-          order.emplace_back(next, c);
-          queue.push_back(next);
-        }
-      }
-    }
-  }
-  std::vector<Index> odd;
-  for (auto step = order.rbegin(); step != order.rend(); ++step)
-  {
-    if (around[step->first] % 2 != 0)
-    {
-      FaceCurve& curve = curves_[step->second];
-      const bool isShortened = static_cast<double>(curve.edges) > curve.length &&
-        curve.edges > curve.least && !hasFewer(curve, 4);
-      add(curve, isShortened ? std::size_t(-1) : 1);
-    }
-  }
-  for (const Index root : roots)
-  {
-    if (root < faces_ && around[root] % 2 != 0)
-    {
-      odd.push_back(root);
-    }
-  }
-  return odd;
+  return points;
 }
 
 } // namespace quadrille

@@ -55,10 +55,13 @@ public:
     return given_;
   } ///< by the boundary's half-edges, t in [0, 1)
 
-  /// Numbers of edges near the lengths of the curves, such that as many faces as can be have an even number round them.
-  /// Returns the others: no two of them can get an edge more by curves between them.
+  /// Numbers of edges near the lengths of the curves, such that as many faces as can be have an even number round them,
+  /// and none is a single quad that has a flat corner or is folded. Returns those with an odd number: no two of them
+  /// can get an edge more by curves between them.
   std::vector<Index> chooseNumbers();
   const std::vector<FaceCurve>& curves() const { return curves_; }
+  /// The points that the edges of a curve meet at, but for its ends, along it: at equal distances.
+  std::vector<CurvePoint> pointsAlong(const FaceCurve& curve) const;
   /// Which faces can pass edges on to each other by free curves: a number per face.
   const std::vector<Index>& groupOf() const { return groupOf_; }
 
@@ -69,6 +72,16 @@ private:
   bool isNode(Index v) const;
   std::vector<Index> endsOnGiven() const;
   void findGroups();
+  Index beginOf(const CurveStep& step) const
+  {
+    return step.forwards ? mesh_.origin[step.h] : mesh_.target(step.h);
+  }
+  Index endOf(const CurveStep& step) const
+  {
+    return step.forwards ? mesh_.target(step.h) : mesh_.origin[step.h];
+  }
+  std::vector<Vector3> cornersRound(Index face) const;
+  std::vector<Index> flatFaces(const std::vector<Index>& singleQuads) const;
 
   const Mesh& mesh_;
   std::vector<std::uint8_t> isGiven_;
@@ -77,6 +90,7 @@ private:
   Index faces_ = 0;
   std::vector<Index> loopOf_; ///< of boundaries of faces, per half-edge; kInvalidIndex inside
   Index loops_ = 0;
+  std::vector<Index> nextOnLoop_;      ///< per half-edge of these boundaries
   std::vector<Index> edges_;           ///< constrained, the lower half-edge of each
   std::vector<std::vector<Index>> at_; ///< of these, per vertex
   std::vector<FaceCurve> curves_;

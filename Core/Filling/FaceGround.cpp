@@ -68,6 +68,11 @@ FaceGround::FaceGround(const Mesh& face, const std::vector<std::uint8_t>& isPin,
   collectFinePins();
 }
 
+FaceGround::FaceGround(const Mesh& face)
+  : face_(face), edgeLength_(0), nearest_(trianglesOf(face)), normals_(vertexNormals(face))
+{
+}
+
 void FaceGround::walkLoop(
   Index first, const std::vector<std::uint8_t>& isPin, std::vector<std::uint8_t>& walked)
 {

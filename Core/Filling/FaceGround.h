@@ -29,6 +29,8 @@ public:
 
   /// As for fillFace. The mesh must live as long as the ground.
   FaceGround(const Mesh& face, const std::vector<std::uint8_t>& isPin, double edgeLength);
+  /// Without pins; of the mesh triangles and sizes count.
+  explicit FaceGround(const Mesh& face);
 
   /// The nearest place whose face looks where `facing` does; none where there is no such face. near: a place that is
   /// about on the face, which makes the search shorter.

@@ -130,19 +130,9 @@ private:
     const Index first = begin(curve.steps.front()), last = end(curve.steps.back());
     placeAt(mesh_.origin[first], first);
     placeAt(mesh_.origin[last], last);
-    const double apart = curve.length / static_cast<double>(curve.edges);
-    double gone = 0;
-    std::size_t next = 1;
-    for (const CurveStep& step : curve.steps)
+    for (const CurvePoint& at : curves_.pointsAlong(curve))
     {
-      const double length = sizedLength(mesh_, step.h) / edgeLength_;
-      for (; next < curve.edges && apart * static_cast<double>(next) < gone + length; ++next)
-      {
-        const double part = (apart * static_cast<double>(next) - gone) / length;
-        const double t = step.forwards ? part : 1 - part;
-        putOn(step.h, t, addPoint(CurvePoint{ step.h, t }.onSurface()));
-      }
-      gone += length;
+      putOn(at.h, at.t, addPoint(at.onSurface()));
     }
   }
 

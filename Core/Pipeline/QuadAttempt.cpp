@@ -225,6 +225,7 @@ void extractOnSurface(
   options.smoothingSteps = run.options.smoothingSteps;
   options.fixedVertices = verticesThatStay(*surface, map);
   options.guides = map.guides;
+  options.replacesBad = map.curves.empty(); // else quads of their chains could go
   options.mapIsCertified = map.certificate.valid();
   options.shape = shape.get();
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");

@@ -6,6 +6,7 @@
 
 #include "Base/Lists.h"
 #include "Base/Progress.h"
+#include "Filling/QuadRepair.h"
 #include "Pipeline/Attempt.h"
 #include "Pipeline/Division.h"
 #include "Pipeline/EnterFrame.h"
@@ -333,6 +334,7 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
   smoothing.threads = options.threads;
   smoothQuads(sized.surface->mesh, result.quads, smoothing);
   untangleQuads(sized.surface->mesh, result.quads, { {}, options.threads });
+  repairQuads(sized.surface->mesh, result.quads, {}, options.threads);
   result.notices.push_back(filledText(cut, sized.targetQuads));
   failure = {};
   return true;

@@ -405,6 +405,7 @@ CopiedQuads quadsAcross(
   ExtractionOptions extraction;
   extraction.maximumNumberOfQuads = options.maximumNumberOfQuads;
   extraction.smoothingSteps = options.smoothingSteps;
+  extraction.replacesBad = false; // on both sides alike
   extraction.fixedVertices = indexVertices(half.surface);
   for (const Index v : indexVertices(half.surface))
   {

@@ -27,7 +27,7 @@ MAY_INCLUDE = {
     "Transfer": ["Hierarchy", "GridMap"],
     "Quads": ["Mesh"],
     "Filling": ["Quads"],
-    "Extraction": ["Quads"],
+    "Extraction": ["Filling"],
     "Elements": ["Quads"],
     "ForeignMaps": ["Extraction"],
     "Evaluation": ["GridMap", "Extraction"],
