@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 RANKS = (1, 2, 4)
-SECONDS = 100  # for one run on a busy machine; a deadlock takes for ever
+SECONDS = 100  # for one case of one run on a busy machine; a deadlock takes for ever
 
 
 def run(mpiexec, pvbatch, ranks, cases):
@@ -24,10 +24,9 @@ def run(mpiexec, pvbatch, ranks, cases):
         # Ranks that wait leave the processor to the others, of which there may be more than processors.
         environment = dict(os.environ, QUADRILLE_MPI_FACTS=folder, OMPI_MCA_mpi_yield_when_idle="1")
         try:
-            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=SECONDS,
-                                  env=environment)
+            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=SECONDS * len(cases), env=environment)
         except subprocess.TimeoutExpired as late:
-            sys.exit(f"FAILED: {ranks} ranks did not end after {SECONDS} s\n{(late.stdout or b'').decode()}")
+            sys.exit(f"FAILED: {ranks} ranks did not end after {SECONDS * len(cases)} s\n{(late.stdout or b'').decode()}")
         if done.returncode != 0:
             sys.exit(f"FAILED: {ranks} ranks ended with {done.returncode}\n{done.stdout}")
         lines = [line for facts in pathlib.Path(folder).iterdir() for line in facts.read_text().splitlines()]
