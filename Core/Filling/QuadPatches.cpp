@@ -44,13 +44,6 @@ Mesh meshOf(const Mesh& mesh, const std::vector<Index>& triangles)
 
 } // namespace
 
-void QuadScore::add(const QuadScore& other)
-{
-  inverted += other.inverted;
-  bad += other.bad;
-  worst = std::min(worst, other.worst);
-}
-
 QuadScore scoreOf(const FaceQuads& mesh)
 {
   QuadScore score;
@@ -106,19 +99,7 @@ bool QuadPatches::areJoined(Index a, Index b) const
     });
 }
 
-std::optional<std::size_t> QuadPatches::lineBetween(Index a, Index b) const
-{
-  if (!isOnLine(a, b))
-  {
-    return std::nullopt;
-  }
-  const auto found = std::find_if(quads_.lines.begin(), quads_.lines.end(),
-    [&](const QuadLine& line) { return std::minmax(line.a, line.b) == std::minmax(a, b); });
-  return found == quads_.lines.end() ? std::nullopt
-                                     : std::optional<std::size_t>(found - quads_.lines.begin());
-}
-
-std::optional<QuadPatch> QuadPatches::around(Index q, const std::vector<Index>& extra) const
+std::optional<QuadPatch> QuadPatches::around(Index q) const
 {
   QuadPatch patch;
   if (!collect(q, patch))
@@ -132,7 +113,7 @@ std::optional<QuadPatch> QuadPatches::around(Index q, const std::vector<Index>& 
   }
   patch.below = std::make_shared<const Mesh>(meshOf(mesh_, patch.triangles));
   patch.ground = std::make_shared<const FaceGround>(*patch.below);
-  number(extra, patch);
+  number(patch);
   return patch;
 }
 
@@ -223,7 +204,7 @@ std::vector<Index> QuadPatches::trianglesBelow(const QuadPatch& patch) const
   return found;
 }
 
-void QuadPatches::number(const std::vector<Index>& extra, QuadPatch& patch) const
+void QuadPatches::number(QuadPatch& patch) const
 {
   const std::set<Index> within(patch.quads.begin(), patch.quads.end());
   const auto isPin = [&](Index p)
@@ -244,7 +225,6 @@ void QuadPatches::number(const std::vector<Index>& extra, QuadPatch& patch) cons
       patch.own.fitting.push_back(4);
     }
   };
-  std::for_each(extra.begin(), extra.end(), add);
   for (const bool pins : { true, false })
   {
     for (const Index q : patch.quads)

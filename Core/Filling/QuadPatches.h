@@ -36,7 +36,6 @@ struct QuadScore
     return hasFewerThan(other) ||
       (inverted == other.inverted && bad == other.bad && worst > other.worst);
   }
-  void add(const QuadScore& other);
 };
 
 /// Quads with a smaller scaled Jacobian are bad.
@@ -64,18 +63,12 @@ public:
   /// fixedVertices: of the mesh, ascending; points on them stay, with their quads. The quads must be a manifold.
   QuadPatches(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices);
 
-  const Mesh& mesh() const { return mesh_; }
-  QuadMesh& quads() { return quads_; }
-  const std::vector<Index>& twin() const { return topology_.twin; } ///< of before
-  bool stays(Index p) const { return p < stays_.size() && stays_[p] != 0; }
+  bool stays(Index p) const { return stays_[p] != 0; }
   /// By an edge, before.
   bool areJoined(Index a, Index b) const;
-  /// The number of a line of before in QuadMesh::lines.
-  std::optional<std::size_t> lineBetween(Index a, Index b) const;
 
-  /// Rings round a quad of before; extra: points that are pins, too. None where one of the quads was changed already, or
-  /// no triangle is found below.
-  std::optional<QuadPatch> around(Index q, const std::vector<Index>& extra = {}) const;
+  /// Rings round a quad of before. None where one of the quads was changed already, or no triangle is found below.
+  std::optional<QuadPatch> around(Index q) const;
   /// Puts changed quads and points in place of those of the patch. made: with gaps, points first as in the patch.
   void write(const QuadPatch& patch, const FaceQuads& made);
   /// Drops gaps and points without quads; then no more can be asked.
@@ -85,7 +78,7 @@ private:
   bool isOnLine(Index a, Index b) const { return lines_.count(std::minmax(a, b)) != 0; }
   bool collect(Index first, QuadPatch& patch) const;
   std::vector<Index> trianglesBelow(const QuadPatch& patch) const;
-  void number(const std::vector<Index>& extra, QuadPatch& patch) const;
+  void number(QuadPatch& patch) const;
 
   const Mesh& mesh_;
   QuadMesh& quads_;
