@@ -76,22 +76,19 @@
 #include "vtkQuadrilleSymmetryAlgorithm.h"
 
 #include <cstdint>  // for std::uint8_t
-#include <memory>   // for std::unique_ptr
 #include <optional> // for std::optional
 
 class vtkTable;
 
 namespace quadrille
 {
-class ResultStore;
-class TriangleSource;
 struct JoinedParts;
 struct JointSheets;
 struct MetSheets;
 struct PartContacts;
+struct QuadProblem;
 struct RunOfBlock;
 struct SurfaceInput;
-struct SymmetricResult;
 enum class TouchingSheets : std::uint8_t;
 }
 
@@ -565,8 +562,12 @@ private:
 
   void CheckProperties() const;
   quadrille::RemeshOptions MakeRunOptions(const quadrille::Block& block);
-  quadrille::SymmetricResult RunPipeline(quadrille::SurfaceInput surface,
-    const quadrille::RemeshOptions& options, quadrille::ResultStore* levels);
+  /// The block with what the properties ask for. converted, asked: filled when the surface is asked for as a whole;
+  /// all of it has to be there as long as the problem.
+  quadrille::QuadProblem MakeQuadProblem(quadrille::Block& block,
+    std::optional<quadrille::ConvertedSurface>& converted, quadrille::AskedConstraints& asked);
+  /// Symmetry, and where cell data come from.
+  void SetWishes(quadrille::QuadProblem& problem) const;
   void TellRun(quadrille::Block& block, const quadrille::RemeshResult& result);
   void WriteQuads(quadrille::Block& block, const quadrille::RunOfBlock& run);
   /// The options get the number of quads of all blocks; shares: of each, sum 1; sizes: of its quads for that share,
@@ -591,14 +592,8 @@ private:
   {
     return this->ComputeMappedSurface != 0 || this->Method == METHOD_SEAMLESS;
   }
-  /// Of the properties, why quads need the surface in one place; empty where they do not.
-  std::string ReasonForWhole() const;
-  std::string ReasonNotToCut(const quadrille::Block& block) const;
-  /// Of a surface that is not cut, whether it is thinned out before the quads are made.
-  bool IsWorthThinning(
-    const quadrille::Block& block, const quadrille::RemeshOptions& options) const;
-  std::unique_ptr<quadrille::TriangleSource> TrianglesToCut(
-    const quadrille::Block& block, const quadrille::RemeshOptions& options) const;
+  /// What is asked of the surface that its triangles do not tell; empty: nothing.
+  std::string WhyNotCut(const quadrille::Block& block) const;
   vtkIdType CountOverBlocks(const char* number) const
   {
     return static_cast<vtkIdType>(this->SumOverBlocks(number));

@@ -154,7 +154,7 @@ public:
     remeshJoined(joined);
     tellHandlesOfParts();
     laps.add(recordsOf(result_.remeshed));
-    if (result_.remeshed.status.ok())
+    if (result_.remeshed.status.ok() && !options.preview)
     {
       carry(joined);
       laps.lap("carry", result_.pointSource.size(), result_.quadSource.size());
@@ -461,24 +461,6 @@ private:
     sameAs_; ///< ids of the source, ascending, and the first one in that place
 };
 
-/// Whether thinned triangles would be far fewer.
-bool hasFineTriangles(const TriangleSource& source, const RemeshOptions& options)
-{
-  double quads = 0;
-  if (options.quads)
-  {
-    quads = static_cast<double>(*options.quads);
-  }
-  else
-  {
-    const SourceExtent extent = extentOf(source, options.threads);
-    const double s =
-      pieceOptionsOf(options, extent.area, extent.diagonal()).edgeLength / kEdgeOfPiece;
-    quads = extent.area / (s * s);
-  }
-  return static_cast<double>(source.triangleCount()) >= kTrianglesOfQuad * quads;
-}
-
 } // namespace
 
 void tellClosedHandles(const std::vector<SmallDetail>& closed, RemeshResult& result)
@@ -490,14 +472,13 @@ void tellClosedHandles(const std::vector<SmallDetail>& closed, RemeshResult& res
   }
 }
 
-bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options)
+std::string MadeThinning::text() const
 {
-  return source.triangleCount() >= kTrianglesWorthPieces && hasFineTriangles(source, options);
-}
-
-bool isWorthThinning(const TriangleSource& source, const RemeshOptions& options)
-{
-  return source.triangleCount() >= kTrianglesWorthThinning && hasFineTriangles(source, options);
+  const std::string cut = pieces > 1
+    ? "the surface was cut into " + std::to_string(pieces) + " pieces, which were"
+    : "the surface was";
+  return cut + " thinned out to " + std::to_string(joinedTriangles) +
+    " triangles before quads were made; the certificate is that of their map";
 }
 
 PiecesResult remeshInPieces(
@@ -525,7 +506,7 @@ PiecesResult remeshInPieces(
   return result;
 }
 
-std::vector<SourceLocation> sourcesOfPoints(const PiecesResult& made, const QuadMesh& mesh)
+std::vector<SourceLocation> sourcesOfPoints(const MadeThinning& made, const QuadMesh& mesh)
 {
   std::vector<SourceLocation> ofPoints = made.pointSource;
   const auto isMissing = [](const SourceLocation& at) { return at.polygon == kInvalidIndex; };
@@ -549,7 +530,7 @@ std::vector<SourceLocation> sourcesOfPoints(const PiecesResult& made, const Quad
   return ofPoints;
 }
 
-Index sourceOfQuad(const PiecesResult& made, const QuadMesh& mesh,
+Index sourceOfQuad(const MadeThinning& made, const QuadMesh& mesh,
   const std::vector<SourceLocation>& sourcesOfPoints, std::size_t q)
 {
   const Index polygon = made.quadSource[q].polygon;

@@ -5,33 +5,58 @@
 #include "Pieces/RemeshInPieces.h"
 #include "Pieces/SurfacePiece.h"
 #include "Pieces/ThinnedSurface.h"
+#include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/EnterFrame.h"
+#include "Pipeline/PlannedSurface.h"
 #include "Pipeline/Run.h"
 #include "Pipeline/RunResult.h"
 #include "Prepare/Prepare.h"
 
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace quadrille
 {
 namespace
 {
 
-/// The surface in the frame, thinned out.
-ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, StageRecords& stages)
+/// What is drawn as features and sizes, on the surface itself. asked: of which the rest is there no more.
+void draw(PreparedSurface& surface, const SurfaceInput& asked, const RemeshOptions& options,
+  StageRecords& stages, std::vector<std::string>& notices)
+{
+  if (!changesSurface(asked.drawn))
+  {
+    return;
+  }
+  Stopwatch watch;
+  const std::size_t before = surface.mesh.faceCount();
+  const double edgeLength =
+    targetEdgeLength(options, areaOverSizes(surface), surface.boundingBoxDiagonal);
+  drawOn(surface, asked, edgeLength, options.threads, notices);
+  stages.add("draw", watch.lap(), before, surface.mesh.faceCount());
+}
+
+/// The surface in the frame, thinned out. input: what is drawn is left of it.
+ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, StageRecords& stages,
+  std::vector<std::string>& notices)
 {
   PrepareOptions prepare;
   prepare.featureAngle = options.featureAngle;
   prepare.threads = options.threads;
   prepare.progress = subProgress(options.progress, 0.0, 0.25, "Preparing: ");
   const std::size_t polygons = input.polygonOffsets.empty() ? 0 : input.polygonOffsets.size() - 1;
+  SurfaceInput later;
+  later.drawn = input.drawn;
+  later.sizingOrders = input.sizingOrders;
   PreparedSurface fine = prepareSurface(std::move(input), prepare);
-  input = {};
-  const std::size_t faces = fine.mesh.faceCount();
+  input = std::move(later);
   for (const auto& [name, seconds] : fine.seconds)
   {
-    stages.add(name, seconds, polygons, faces);
+    stages.add(name, seconds, polygons, fine.mesh.faceCount());
   }
+  draw(fine, input, options, stages, notices);
+  const std::size_t faces = fine.mesh.faceCount();
   Stopwatch watch;
   PieceOptions piece = pieceOptionsOf(options, fine.area, fine.boundingBoxDiagonal);
   piece.threads = options.threads;
@@ -46,7 +71,9 @@ void carryToInput(ThinnedSurface& thinned, const std::vector<Vector3>& userPoint
   const std::vector<Vector3>& points, const RemeshOptions& options, RemeshResult& made,
   PiecesResult& result)
 {
-  if (!made.status.ok())
+  result.polygonBeside = thinned.polygonsBeside();
+  thinned.putOnInput(made.failed);
+  if (!made.status.ok() || options.preview)
   {
     return;
   }
@@ -69,13 +96,17 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
   RemeshOptions options = optionsInFrame(given, frame);
   options.mergeCharts = false;
   StageRecords stages;
-  ThinnedSurface thinned = thinOut(framed.input, options, stages);
+  std::vector<std::string> notices;
+  ThinnedSurface thinned = thinOut(framed.input, options, stages, notices);
   result.pieces = 1;
   result.joinedTriangles = thinned.faceCount();
   const std::vector<Vector3> userPoints = thinned.userPoints(frame, framed.points);
   options.progress = subProgress(given.progress, 0.6, 0.9);
   std::vector<SmallDetail> closed;
-  SizedSurface sized = sizePrepared(thinned.surface(options.threads, closed), stages, options);
+  PreparedSurface surface = thinned.surface(options.threads, closed);
+  SizedSurface sized =
+    sizePrepared(std::move(surface), framed.input.drawn.valences, stages, options);
+  sized.notices.insert(sized.notices.begin(), notices.begin(), notices.end());
   remeshSized(sized, frame, options, nullptr, false, made);
   tellClosedHandles(closed, made);
   putOnUserSurface(sized, { frame, {}, userPoints }, options, false, made);
@@ -86,22 +117,13 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
   }
 }
 
-/// What needs the whole surface, see remeshThinned.
-void requireNothingPlaced(const SurfaceInput& input)
-{
-  refuseIf(!input.guideDirections.empty() || !input.targetValences.empty() ||
-      !input.drawn.empty() || !input.curves.empty() || !input.held.empty() ||
-      !input.seams.empty() || !input.straight.empty() || input.regularElsewhere ||
-      input.regularOnFeatures,
-    "guides, valences and curves are those of the whole surface: do not have it "
-    "thinned out.");
-}
-
 } // namespace
 
 PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options)
 {
-  requireNothingPlaced(input);
+  refuseIf(!input.held.empty() || !input.seams.empty() || !input.straight.empty(),
+    "vertices that are held, and parts of the boundary that are straight or images of each other, "
+    "are those of the whole surface: do not have it thinned out.");
   PiecesResult made;
   made.remeshed = guardedRun(input, options, nullptr,
     [&](const RemeshOptions& asked, ResultStore*, PlaceScope& places, RemeshResult& remeshed)

@@ -286,6 +286,27 @@ SizedSurface finished(
   return sized;
 }
 
+/// Valences at places, on the sized surface.
+void addValences(const std::vector<ValencePlace>& valences, const RemeshOptions& options,
+  PreparedSurface& surface, SizedSurface& sized)
+{
+  sized.starsKey = sized.key;
+  sized.sharedVertices = surface.mesh.vertexCount();
+  if (!sized.status.ok())
+  {
+    return;
+  }
+  const AddedVertices added =
+    drawValences(surface, valences, sized.edgeLength, options.threads, sized.notices);
+  sized.key =
+    added == AddedVertices::None ? sized.key : KeyMaker(sized.key).add(surface.hash).key();
+  if (added == AddedVertices::OnFeatures)
+  {
+    sized.starsKey = sized.key;
+    sized.sharedVertices = surface.mesh.vertexCount();
+  }
+}
+
 /// The prepared surface that a run begins with, and where it is stored; stored: null where it was made.
 struct PreparedOfRun
 {
@@ -418,32 +439,20 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
       keepSized(std::move(stored), prepared.key, surface, options, *store, sized);
     }
   }
-  sized.starsKey = sized.key;
-  sized.sharedVertices = surface.mesh.vertexCount();
-  if (sized.status.ok())
-  {
-    const AddedVertices added =
-      drawValences(surface, input.drawn.valences, sized.edgeLength, options.threads, sized.notices);
-    sized.key =
-      added == AddedVertices::None ? sized.key : KeyMaker(sized.key).add(surface.hash).key();
-    if (added == AddedVertices::OnFeatures)
-    {
-      sized.starsKey = sized.key;
-      sized.sharedVertices = surface.mesh.vertexCount();
-    }
-  }
+  addValences(input.drawn.valences, options, surface, sized);
   input = {};
   return finished(std::move(surface), options, store, std::move(sized));
 }
 
-SizedSurface sizePrepared(
-  PreparedSurface surface, const StageRecords& stages, const RemeshOptions& options)
+SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlace>& valences,
+  const StageRecords& stages, const RemeshOptions& options)
 {
   SizedSurface sized;
   sized.stages = stages;
   setTarget(areaOverSizes(surface), surface.boundingBoxDiagonal, options, sized);
   sized.key = sizedKey(preparedKey(0, options), 0, surface, options, sized);
   sizePreparedSurface(surface, options, sized);
+  addValences(valences, options, surface, sized);
   return finished(std::move(surface), options, nullptr, std::move(sized));
 }
 

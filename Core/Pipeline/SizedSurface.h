@@ -63,9 +63,10 @@ bool isPrepared(const KnownInput& known, const RemeshOptions& options);
 SizedSurface sizeSurface(
   SurfaceInput& input, const RemeshOptions& options, const KnownInput& known = {});
 
-/// The same of a surface that is prepared, which stays nowhere else. stages: those that have led to it.
-SizedSurface sizePrepared(
-  PreparedSurface surface, const StageRecords& stages, const RemeshOptions& options);
+/// The same of a surface that is prepared, which stays nowhere else, and on which features and sizes are drawn.
+/// valences: drawn in the frame. stages: those that have led to it.
+SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlace>& valences,
+  const StageRecords& stages, const RemeshOptions& options);
 
 /// Sizes that the shape of the surface asks for. Where a number of quads is asked for, the edge length is the one
 /// with which they make as many, and the lengths that the shape asks for stay what they are.
