@@ -81,8 +81,9 @@ void tellClosedHandles(const std::vector<SmallDetail>& closed, RemeshResult& res
 /// Makes the quads of a surface that is thinned out first, in one piece (ThinnedSurface.h): stages are repair, order,
 /// connectivity, thin, those of remesh() from refine on, and carry. Of a surface that is shifted, scaled or mirrored it
 /// makes the same quads, as remesh() does; else as remeshInPieces(). input: all that is asked of it counts, but for
-/// vertices that are held and parts of the boundary that are images of each other or straight: these throw
-/// InvalidInput. What is drawn is drawn on the surface itself, and the vertices of target valences stay.
+/// guides (see Documentation/Design/Pieces.md), vertices that are held and parts of the boundary that are images of
+/// each other or straight: these throw InvalidInput. What is drawn is drawn on the surface itself, and the vertices of
+/// target valences stay.
 PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options);
 
 /// Makes the quads. options: as for remesh(), on the surface as it is: guides, valences, sizes and curves that an input

@@ -121,6 +121,9 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
 
 PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options)
 {
+  refuseIf(!input.guideDirections.empty() || !input.drawn.strokes.empty(),
+    "directions of guides need the freedom that all triangles give: do not have the surface "
+    "thinned out.");
   refuseIf(!input.held.empty() || !input.seams.empty() || !input.straight.empty(),
     "vertices that are held, and parts of the boundary that are straight or images of each other, "
     "are those of the whole surface: do not have it thinned out.");

@@ -64,19 +64,6 @@ PreparedSurface ThinnedSurface::surface(int threads, std::vector<SmallDetail>& c
 SurfaceRequests ThinnedSurface::requests() const
 {
   SurfaceRequests asked = fine_.requests();
-  asked.polygonGuides.clear();
-  const std::vector<PolygonGuide>& guides = fine_.polygonGuides;
-  const std::vector<Index> beside = guides.empty() ? std::vector<Index>{} : polygonsBeside();
-  for (Index f = 0; f < beside.size(); ++f)
-  {
-    const auto found = std::lower_bound(guides.begin(), guides.end(), beside[f],
-      [](const PolygonGuide& guide, Index polygon) { return guide.polygon < polygon; });
-    if (found != guides.end() && found->polygon == beside[f])
-    {
-      asked.polygonGuides.push_back(*found);
-      asked.polygonGuides.back().polygon = f;
-    }
-  }
   for (ValenceRequest& request : asked.valenceRequests)
   {
     const auto kept =

@@ -23,12 +23,12 @@ class ThinnedSurface
 {
 public:
   /// Decimates until the edges exceed the edge length, without handles that are too short; vertices of target valences
-  /// stay. options: the lengths are those of `fine`.
+  /// stay. fine: without guides. options: the lengths are those of `fine`.
   ThinnedSurface(PreparedSurface fine, const PieceOptions& options);
 
   /// The thinned surface as one by itself: its polygons are its own triangles, its input's points its own vertices. It
   /// has what was found on the surface: area, diagonal, components, features, sizes, what repair did; and what is asked
-  /// of it, guides of polygons by the polygon that each triangle has beside it. Handles that are
+  /// of it. Handles that are
   /// too short on the surface itself are cut and closed; on thinned triangles they come out longer. closed: gets them,
   /// with places on `fine`.
   PreparedSurface surface(int threads, std::vector<SmallDetail>& closed) const;

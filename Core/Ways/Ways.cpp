@@ -151,6 +151,10 @@ std::string whyNotThinned(const QuadProblem& problem, const SurfaceInput& input,
   {
     return "irregular vertices are held where they are on the whole surface";
   }
+  if (!input.guideDirections.empty() || !input.drawn.strokes.empty())
+  {
+    return "directions of guides need the freedom that all triangles give";
+  }
   const double triangles = static_cast<double>(input.polygonPoints.size()) -
     2 * static_cast<double>(problem.surface.polygons);
   const auto measure = [&]

@@ -93,7 +93,7 @@ INPUTS = (
     ("fine beast", lambda: Surface("beast", 3), {"quads": 800}),
     ("fine part with patches", lambda: Surface("part", 3).by_patches(), {"quads": 1500}),
     ("fine beast with sizes, by length", lambda: Surface("beast", 3).sized(), {"edge_length": 0.12}),
-    ("fine part with features, guided", lambda: Surface("part", 3).with_features().guided(), {"quads": 1500}),
+    ("fine part with features and sizes", lambda: Surface("part", 3).with_features().sized(), {"quads": 1500}),
 )
 
 #: The arrays of fronts.cxx.

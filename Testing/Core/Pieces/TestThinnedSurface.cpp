@@ -221,17 +221,16 @@ void expectSameWords(AskedTorus torus, std::size_t quads, std::size_t words)
   expectPlacesOfSources(made, torus.input);
 }
 
-TEST(ThinnedSurface, DrawnFeaturesAndStrokesAreFollowed)
+TEST(ThinnedSurface, DrawnFeaturesAreFollowed)
 {
   AskedTorus torus;
   torus.draw(
     [&](ConstraintPlacement& placement)
     {
       placement.addFeature({ 0, torus.ring(0.7, 0, 1.5) });
-      placement.addStroke({ 1, torus.ring(0, 2.5, 4) }, 1);
       placement.addSize(AskedTorus::at(5, 0), 0.5, 0.7);
     });
-  expectSameWords(torus, 300, 2);
+  expectSameWords(torus, 300, 1);
 }
 
 TEST(ThinnedSurface, ValencesStay)
@@ -255,26 +254,6 @@ TEST(ThinnedSurface, CyclesAndConnectionsAreClosed)
       std::vector<Vector3> ring = torus.ring(1, 0, 6.1);
       placement.addCurve(0, CurveKind::Cycle, std::move(ring));
     });
-  expectSameWords(torus, 300, 1);
-}
-
-TEST(ThinnedSurface, GuidesOfPolygonsAreFollowed)
-{
-  AskedTorus torus;
-  const std::size_t polygons = torus.input.polygonOffsets.size() - 1;
-  torus.input.guideDirections.assign(polygons, Vector3::Zero());
-  for (std::size_t f = 0; f < polygons; ++f)
-  {
-    const Vector3& p = torus.input.points[torus.input.polygonPoints[3 * f]];
-    if (p.x() > 0.5)
-    {
-      // Round the torus and across at once.
-      const Vector3 around = Vector3(-p.y(), p.x(), 0).normalized();
-      const Vector3 axis = 2 * Vector3(p.x(), p.y(), 0).normalized();
-      torus.input.guideDirections[f] = around + (p - axis).normalized().cross(around);
-    }
-  }
-  torus.asked.arrays = arrayConstraints(torus.input);
   expectSameWords(torus, 300, 1);
 }
 
@@ -322,11 +301,14 @@ TEST(ThinnedSurface, PolygonsBesideKeepToTheirPatch)
   }
 }
 
-TEST(ThinnedSurface, RefusesWhatIsHeldOnTheSurface)
+TEST(ThinnedSurface, RefusesWhatNeedsTheWholeSurface)
 {
-  SurfaceInput input = toInput(sphere(4));
-  input.held.emplace_back();
-  EXPECT_THROW(remeshThinned(input, askForQuads(100)), InvalidInput);
+  SurfaceInput held = toInput(sphere(4));
+  held.held.emplace_back();
+  EXPECT_THROW(remeshThinned(held, askForQuads(100)), InvalidInput);
+  SurfaceInput guided = toInput(sphere(4));
+  guided.guideDirections.assign(guided.polygonOffsets.size() - 1, Vector3::UnitX());
+  EXPECT_THROW(remeshThinned(guided, askForQuads(100)), InvalidInput);
   SurfaceInput broken = toInput(sphere(4));
   broken.polygonPoints.edit()[300] = 123456;
   EXPECT_THROW(remeshThinned(broken, askForQuads(100)), InvalidInput);

@@ -148,9 +148,38 @@ TEST(Ways, WhatNeedsTheWholeSurface)
     reason([](QuadProblem& p) { p.options.finalQuality = FinalQuality::Input; }), "final quality"));
   EXPECT_TRUE(
     has(reason([](QuadProblem& p) { p.symmetry.emplace(); }, Way::Symmetric), "symmetric quads"));
+  SurfaceInput guided = surface;
+  guided.guideDirections.assign(guided.polygonOffsets.size() - 1, Vector3::UnitX());
+  SurfaceInput none;
+  EXPECT_TRUE(
+    has(expectWay(guided, Way::Whole, problemOf(none)).whyNotThinned, "directions of guides"));
   ResultStore store(std::size_t{ 1 } << 28);
   EXPECT_TRUE(has(reason([&](QuadProblem& p) { p.store = &store; }), "kept for the next edit"));
   EXPECT_TRUE(has(reason([](QuadProblem& p) { p.thinning = Thinning::Never; }), "whole"));
+}
+
+/// A move is made on the whole surface, from the quads that it has without.
+TEST(Ways, MovesHoldIrregularVerticesOnTheWholeSurface)
+{
+  const SurfaceInput surface = toInput(sphere(4));
+  SurfaceInput none;
+  QuadProblem problem = problemOf(none);
+  const QuadsMade before = expectWay(surface, Way::Whole, problem);
+  const std::vector<int>& valence = before.remeshed.quads.valence;
+  const auto irregular = std::find_if(
+    valence.begin(), valence.end(), [](int edges) { return edges != kRegularValence; });
+  ASSERT_NE(irregular, valence.end());
+  const Vector3 from =
+    before.remeshed.quads.points[static_cast<std::size_t>(irregular - valence.begin())];
+  PlacedConstraint move;
+  move.kind = ConstraintKind::Move;
+  move.path = { from, (from + 0.15 * from.unitOrthogonal()).normalized() };
+  std::vector<PlacedConstraint> placed{ move };
+  problem.placed = &placed;
+  const QuadsMade made = expectWay(surface, Way::Whole, problem);
+  EXPECT_EQ(made.whyNotThinned, "irregular vertices are held where they are on the whole surface");
+  EXPECT_EQ(placed.front().whyNot, "");
+  EXPECT_EQ(placed.front().valence, *irregular);
 }
 
 TEST(Ways, PiecesAreCutWhereTheyAreAskedFor)
