@@ -301,6 +301,27 @@ TEST(ThinnedSurface, PolygonsBesideKeepToTheirPatch)
   }
 }
 
+/// A component without a map is left out, and told by all its polygons of the input.
+TEST(ThinnedSurface, WhatIsLeftOutIsToldByPolygonsOfTheInput)
+{
+  SurfaceInput input = toInput(disjointUnion(sphere(5), sphere(3), Vector3(3, 0, 0)));
+  const std::size_t fine = toInput(sphere(5)).polygonOffsets.size() - 1;
+  input.featureEdges.assign(input.polygonOffsets.size() - 1, 0);
+  std::fill(
+    input.featureEdges.begin() + static_cast<std::ptrdiff_t>(fine), input.featureEdges.end(), 7);
+  RemeshOptions options = askForQuads(40);
+  EXPECT_FALSE(remeshThinned(input, options).remeshed.status.ok());
+  options.leavesOutFailed = true;
+  const PiecesResult made = remeshThinned(input, options);
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  EXPECT_LT(made.joinedTriangles, fine);
+  const FailedParts& failed = made.remeshed.failed;
+  EXPECT_EQ(failed.components, 1U);
+  ASSERT_EQ(failed.polygons.size(), input.polygonOffsets.size() - 1 - fine);
+  EXPECT_EQ(failed.polygons.front(), fine);
+  expectPlacesOfSources(made, input);
+}
+
 TEST(ThinnedSurface, RefusesWhatNeedsTheWholeSurface)
 {
   SurfaceInput held = toInput(sphere(4));
