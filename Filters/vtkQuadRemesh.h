@@ -291,8 +291,8 @@ public:
   /**
    * What becomes of connected components that have no map: LEAVE_OUT_FAILED_COMPONENTS makes quads of the others, and
    * tells it by a warning, in the certificate, by GetComponentsWithoutQuads() and in output 8;
-   * FAIL_WITH_FAILED_COMPONENTS makes no quads at all, as it is also for conforming blocks, surfaces that are thinned
-   * out or cut into pieces, and with a Symmetry. Default: LEAVE_OUT_FAILED_COMPONENTS.
+   * FAIL_WITH_FAILED_COMPONENTS makes no quads at all, as it is also for conforming blocks, surfaces that are cut into
+   * pieces, and with a Symmetry. Default: LEAVE_OUT_FAILED_COMPONENTS.
    */
   vtkSetClampMacro(FailedComponents, int, LEAVE_OUT_FAILED_COMPONENTS, FAIL_WITH_FAILED_COMPONENTS);
   vtkGetMacro(FailedComponents, int);
@@ -441,10 +441,11 @@ public:
    * are made on the thinned pieces together, and their points go back to the surface. That takes about a third of the
    * memory and less time, and holds nothing of the surface for the next execution. Automatic: from 4,000,000 triangles
    * on, where a quad has at least 66 of them, and with KeepLevels from 10,000,000 on; without KeepLevels a surface of
-   * 1,000,000 triangles or more is thinned out without being cut; where properties or inputs need the whole surface
-   * (constraints, symmetry, previews, the mapped surface, CellDataFrom by area, FinalQuality on the input, the method
-   * without quads, polygons with more than three corners), it stays whole. Always: also where it is smaller; what needs
-   * the whole surface is an error. Never: the surface stays whole. Default: Automatic.
+   * 1,000,000 triangles or more is thinned out without being cut; so is a larger one with
+   * constraints or polygons with more than three corners, which cannot be cut. What needs the whole surface keeps it
+   * whole: guides, moves, symmetry, the mapped surface, CellDataFrom by area, FinalQuality on the input, the method
+   * without quads. Always: also where it is smaller; what cannot be cut is an error. Never: the surface stays whole.
+   * Default: Automatic.
    */
   vtkSetClampMacro(Pieces, int, PIECES_AUTOMATIC, PIECES_NEVER);
   vtkGetMacro(Pieces, int);
