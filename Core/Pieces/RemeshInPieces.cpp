@@ -124,16 +124,16 @@ public:
     StageLaps laps;
     const double quads =
       static_cast<double>(std::min(options.quads.value_or(0), options.maximumNumberOfQuads));
-    result_.estimate =
+    const RunEstimate estimate =
       estimateInPieces(source.triangleCount(), pieces.trianglesOfPiece, quads, options.threads);
-    result_.remeshed.status = memoryStatus(result_.estimate, source.triangleCount(), options);
+    result_.remeshed.status = memoryStatus(estimate, source.triangleCount(), options);
     if (!result_.remeshed.status.ok())
     {
-      result_.remeshed.estimate = result_.estimate;
+      result_.remeshed.estimate = estimate;
       return;
     }
     report(options.progress, 0,
-      "Cutting the surface: " + estimateText(result_.estimate) + " for " +
+      "Cutting the surface: " + estimateText(estimate) + " for " +
         std::to_string(source.triangleCount()) + " triangles");
     cut_ = cutIntoPieces(source, pieces.trianglesOfPiece, options.threads);
     shared_ = std::make_unique<SharedPoints>(source, cut_, options.threads);
@@ -151,7 +151,7 @@ public:
     result_.pieces = cut_.pieces();
     result_.joinedTriangles = joined.surface.polygonOffsets.size() - 1;
     laps.lap("join", result_.joinedTriangles, joined.surface.points.size());
-    remeshJoined(joined);
+    remeshJoined(joined, estimate);
     tellHandlesOfParts();
     laps.add(recordsOf(result_.remeshed));
     if (result_.remeshed.status.ok() && !options.preview)
@@ -366,13 +366,13 @@ private:
     return joinPieces(levels, ids, options_.featureAngle);
   }
 
-  void remeshJoined(const JoinedPieces& joined)
+  void remeshJoined(const JoinedPieces& joined, const RunEstimate& estimate)
   {
     RemeshOptions options = options_;
     options.progress = subProgress(options_.progress, 0.6, 0.9);
     options.mergeCharts = false;
     result_.remeshed = remesh(joined.surface, options);
-    result_.remeshed.estimate = result_.estimate;
+    result_.remeshed.estimate = estimate;
   }
 
   /// Those that were cut before the pieces were thinned.

@@ -66,7 +66,6 @@ struct PiecesResult : MadeThinning
   /// thin:connectivity and thin:phase1, whose seconds are sums over the pieces, of which as many run side by side as
   /// there are threads.
   RemeshResult remeshed;
-  RunEstimate estimate; ///< made before the run
 };
 
 /// Where the points lie, and in what polygon the centre of quad q; a place that is missing is that of a point near it

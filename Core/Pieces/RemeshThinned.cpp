@@ -5,14 +5,11 @@
 #include "Pieces/RemeshInPieces.h"
 #include "Pieces/SurfacePiece.h"
 #include "Pieces/ThinnedSurface.h"
-#include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/EnterFrame.h"
-#include "Pipeline/PlannedSurface.h"
 #include "Pipeline/Run.h"
 #include "Pipeline/RunResult.h"
-#include "Prepare/Prepare.h"
+#include "Pipeline/SizedSurface.h"
 
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,48 +18,18 @@ namespace quadrille
 namespace
 {
 
-/// What is drawn as features and sizes, on the surface itself. asked: of which the rest is there no more.
-void draw(PreparedSurface& surface, const SurfaceInput& asked, const RemeshOptions& options,
-  StageRecords& stages, std::vector<std::string>& notices)
-{
-  if (!changesSurface(asked.drawn))
-  {
-    return;
-  }
-  Stopwatch watch;
-  const std::size_t before = surface.mesh.faceCount();
-  const double edgeLength =
-    targetEdgeLength(options, areaOverSizes(surface), surface.boundingBoxDiagonal);
-  drawOn(surface, asked, edgeLength, options.threads, notices);
-  stages.add("draw", watch.lap(), before, surface.mesh.faceCount());
-}
-
 /// The surface in the frame, thinned out. input: what is drawn is left of it.
-ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, StageRecords& stages,
-  std::vector<std::string>& notices)
+ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, SizedSurface& sized)
 {
-  PrepareOptions prepare;
-  prepare.featureAngle = options.featureAngle;
-  prepare.threads = options.threads;
-  prepare.progress = subProgress(options.progress, 0.0, 0.25, "Preparing: ");
-  const std::size_t polygons = input.polygonOffsets.empty() ? 0 : input.polygonOffsets.size() - 1;
-  SurfaceInput later;
-  later.drawn = input.drawn;
-  later.sizingOrders = input.sizingOrders;
-  PreparedSurface fine = prepareSurface(std::move(input), prepare);
-  input = std::move(later);
-  for (const auto& [name, seconds] : fine.seconds)
-  {
-    stages.add(name, seconds, polygons, fine.mesh.faceCount());
-  }
-  draw(fine, input, options, stages, notices);
+  PreparedSurface fine =
+    prepareDrawn(input, options, subProgress(options.progress, 0.0, 0.25, "Preparing: "), sized);
   const std::size_t faces = fine.mesh.faceCount();
   Stopwatch watch;
   PieceOptions piece = pieceOptionsOf(options, fine.area, fine.boundingBoxDiagonal);
   piece.threads = options.threads;
   piece.progress = subProgress(options.progress, 0.25, 0.6, "Thinning: ");
   ThinnedSurface thinned(std::move(fine), piece);
-  stages.add("thin", watch.lap(), faces, thinned.faceCount());
+  sized.stages.add("thin", watch.lap(), faces, thinned.faceCount());
   return thinned;
 }
 
@@ -95,18 +62,15 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
   places.set(frame.centre, frame.unit, frame.sign);
   RemeshOptions options = optionsInFrame(given, frame);
   options.mergeCharts = false;
-  StageRecords stages;
-  std::vector<std::string> notices;
-  ThinnedSurface thinned = thinOut(framed.input, options, stages, notices);
+  SizedSurface sized;
+  ThinnedSurface thinned = thinOut(framed.input, options, sized);
   result.pieces = 1;
   result.joinedTriangles = thinned.faceCount();
   const std::vector<Vector3> userPoints = thinned.userPoints(frame, framed.points);
   options.progress = subProgress(given.progress, 0.6, 0.9);
   std::vector<SmallDetail> closed;
   PreparedSurface surface = thinned.surface(options.threads, closed);
-  SizedSurface sized =
-    sizePrepared(std::move(surface), framed.input.drawn.valences, stages, options);
-  sized.notices.insert(sized.notices.begin(), notices.begin(), notices.end());
+  sized = sizePrepared(std::move(surface), framed.input.drawn.valences, options, std::move(sized));
   remeshSized(sized, frame, options, nullptr, false, made);
   tellClosedHandles(closed, made);
   putOnUserSurface(sized, { frame, {}, userPoints }, options, false, made);
@@ -134,7 +98,6 @@ PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options)
       EnteredInput entered = enterFrame(std::move(input), asked, nullptr);
       runThinned(entered.framed, asked, places, remeshed, made);
     });
-  made.estimate = made.remeshed.estimate;
   return made;
 }
 

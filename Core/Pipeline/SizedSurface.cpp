@@ -69,13 +69,13 @@ ResultKey sizedKey(ResultKey prepared, ResultKey requests, const PreparedSurface
 }
 
 /// Repaired, in order and with features. What only placeHeld needs is left of the input.
-PreparedSurface prepareInput(
-  SurfaceInput& input, const RemeshOptions& options, StageRecords& stages)
+PreparedSurface prepareInput(SurfaceInput& input, const RemeshOptions& options,
+  const ProgressCallback& progress, StageRecords& stages)
 {
   PrepareOptions prepareOptions;
   prepareOptions.featureAngle = options.featureAngle;
   prepareOptions.threads = options.threads;
-  prepareOptions.progress = subProgress(options.progress, 0.0, 0.1, "Preparing: ");
+  prepareOptions.progress = progress;
   const std::size_t polygons = input.polygonOffsets.empty() ? 0 : input.polygonOffsets.size() - 1;
   SurfaceInput later;
   later.held = input.held;
@@ -338,13 +338,24 @@ PreparedOfRun findOrPrepare(
     sized.reused = { "repair", "order", "connectivity" };
     return prepared;
   }
-  prepared.surface = prepareInput(input, options, sized.stages);
+  prepared.surface = prepareInput(
+    input, options, subProgress(options.progress, 0.0, 0.1, "Preparing: "), sized.stages);
   prepared.sizedArea = areaOverSizes(prepared.surface);
   return prepared;
 }
 
 /// Features and sizes that are drawn become those of the prepared surface. How fine that has to be follows from the
 /// quads.
+void draw(const SurfaceInput& input, double edgeLength, const RemeshOptions& options,
+  PreparedSurface& surface, SizedSurface& sized)
+{
+  const double start = secondsNow();
+  const std::size_t before = surface.mesh.faceCount();
+  drawOn(surface, input, edgeLength, options.threads, sized.notices);
+  sized.stages.add("draw", secondsNow() - start, before, surface.mesh.faceCount());
+}
+
+/// The same where the store may have it.
 void findOrDraw(const SurfaceInput& input, const RemeshOptions& options, ResultStore* store,
   PreparedOfRun& prepared, SizedSurface& sized)
 {
@@ -370,11 +381,8 @@ void findOrDraw(const SurfaceInput& input, const RemeshOptions& options, ResultS
     collectRequests(input, prepared.surface, options.threads);
     prepared.stored.reset();
   }
-  const double start = secondsNow();
-  const std::size_t before = prepared.surface.mesh.faceCount();
-  drawOn(prepared.surface, input, edgeLength, options.threads, sized.notices);
+  draw(input, edgeLength, options, prepared.surface, sized);
   prepared.sizedArea = areaOverSizes(prepared.surface);
-  sized.stages.add("draw", secondsNow() - start, before, prepared.surface.mesh.faceCount());
 }
 
 } // namespace
@@ -444,11 +452,21 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
   return finished(std::move(surface), options, store, std::move(sized));
 }
 
-SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlace>& valences,
-  const StageRecords& stages, const RemeshOptions& options)
+PreparedSurface prepareDrawn(SurfaceInput& input, const RemeshOptions& options,
+  const ProgressCallback& progress, SizedSurface& sized)
 {
-  SizedSurface sized;
-  sized.stages = stages;
+  PreparedSurface surface = prepareInput(input, options, progress, sized.stages);
+  if (changesSurface(input.drawn))
+  {
+    draw(input, targetEdgeLength(options, areaOverSizes(surface), surface.boundingBoxDiagonal),
+      options, surface, sized);
+  }
+  return surface;
+}
+
+SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlace>& valences,
+  const RemeshOptions& options, SizedSurface sized)
+{
   setTarget(areaOverSizes(surface), surface.boundingBoxDiagonal, options, sized);
   sized.key = sizedKey(preparedKey(0, options), 0, surface, options, sized);
   sizePreparedSurface(surface, options, sized);

@@ -138,7 +138,7 @@ std::unique_ptr<TriangleSource> trianglesToCut(const QuadProblem& problem)
 /// Of a surface that is not cut, why it is not thinned out as a whole; empty: it is.
 std::string whyNotThinned(const QuadProblem& problem, const SurfaceInput& input, bool hasMoves)
 {
-  const std::string why = whyWhole(problem);
+  std::string why = whyWhole(problem);
   if (!why.empty())
   {
     return why;
