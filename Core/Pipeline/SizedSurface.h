@@ -63,7 +63,7 @@ bool isPrepared(const KnownInput& known, const RemeshOptions& options);
 SizedSurface sizeSurface(
   SurfaceInput& input, const RemeshOptions& options, const KnownInput& known = {});
 
-/// The steps of sizeSurface for a surface that becomes another one between them and stays nowhere else. First: repaired,
+/// The steps of sizeSurface for a surface that becomes another between them and stays nowhere else. First: repaired,
 /// in order, with its features, and with those and the sizes that are drawn. What is drawn is left of the input. sized:
 /// gets stages and notices.
 PreparedSurface prepareDrawn(SurfaceInput& input, const RemeshOptions& options,
