@@ -245,7 +245,20 @@ TEST(ThinnedSurface, ValencesStay)
   expectSameWords(torus, 300, 3);
 }
 
-TEST(ThinnedSurface, CyclesAndConnectionsAreClosed)
+TEST(ThinnedSurface, ConnectionsJoinTheirEnds)
+{
+  AskedTorus torus;
+  torus.draw(
+    [&](ConstraintPlacement& placement)
+    {
+      placement.addValence(0, AskedTorus::at(0.5, 1), 3);
+      placement.addValence(1, AskedTorus::at(1.6, 1), 5);
+      placement.addCurve(2, CurveKind::Connection, torus.ring(1, 0.5, 1.6));
+    });
+  expectSameWords(torus, 300, 3);
+}
+
+TEST(ThinnedSurface, CyclesAreClosed)
 {
   AskedTorus torus;
   torus.draw(

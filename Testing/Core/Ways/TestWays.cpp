@@ -26,6 +26,36 @@ SurfaceInput fineTorus()
   return toInput(torus(1024, 512, 2, 0.8));
 }
 
+/// Two triangles of a torus that follow each other are a square cut in two.
+SurfaceInput squaresOf(const SurfaceInput& triangles)
+{
+  SurfaceInput squares;
+  squares.points = triangles.points;
+  squares.polygonOffsets.push_back(0);
+  for (std::size_t t = 0; t + 6 <= triangles.polygonPoints.size(); t += 6)
+  {
+    const Index* const p = triangles.polygonPoints.data() + t;
+    std::vector<Index> corners(p, p + 3);
+    for (std::size_t i = 0; i < 3 && corners.size() == 3; ++i)
+    {
+      const auto at = std::find(p + 3, p + 6, p[i]);
+      const auto next = std::find(p + 3, p + 6, p[(i + 1) % 3]);
+      if (at != p + 6 && next != p + 6)
+      {
+        corners.insert(
+          corners.begin() + static_cast<std::ptrdiff_t>(i) + 1, p[3] + p[4] + p[5] - *at - *next);
+      }
+    }
+    EXPECT_EQ(corners.size(), 4U);
+    for (const Index corner : corners)
+    {
+      squares.polygonPoints.push_back(corner);
+    }
+    squares.polygonOffsets.push_back(static_cast<Index>(squares.polygonPoints.size()));
+  }
+  return squares;
+}
+
 QuadProblem problemOf(SurfaceInput& input, std::size_t quads = 200)
 {
   QuadProblem problem;
@@ -94,36 +124,8 @@ TEST(Ways, AFineSurfaceIsThinnedOut)
 
 TEST(Ways, SoIsOneOfOtherPolygons)
 {
-  const SurfaceInput triangles = fineTorus();
-  SurfaceInput input = triangles;
-  // Two triangles that follow each other are a square cut in two.
-  const std::size_t squares = (triangles.polygonOffsets.size() - 1) / 2;
-  input.polygonOffsets.resize(1);
-  input.polygonPoints.resize(0);
-  for (std::size_t s = 0; s < squares; ++s)
-  {
-    const Index* const p = triangles.polygonPoints.data() + 6 * s;
-    std::vector<Index> corners(p, p + 3);
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const auto at = std::find(p + 3, p + 6, p[i]);
-      const auto next = std::find(p + 3, p + 6, p[(i + 1) % 3]);
-      if (at != p + 6 && next != p + 6)
-      {
-        const Index other = p[3] + p[4] + p[5] - *at - *next;
-        corners.insert(corners.begin() + static_cast<std::ptrdiff_t>(i) + 1, other);
-        break;
-      }
-    }
-    ASSERT_EQ(corners.size(), 4U);
-    for (const Index corner : corners)
-    {
-      input.polygonPoints.push_back(corner);
-    }
-    input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
-  }
   SurfaceInput none;
-  expectWay(input, Way::Thinned, problemOf(none));
+  expectWay(squaresOf(fineTorus()), Way::Thinned, problemOf(none));
 }
 
 /// The reasons that keep a surface whole, each with its words.
@@ -182,6 +184,44 @@ TEST(Ways, MovesHoldIrregularVerticesOnTheWholeSurface)
   EXPECT_EQ(placed.front().valence, *irregular);
 }
 
+TEST(Ways, MovesHaveAnImageToo)
+{
+  const SurfaceInput surface = toInput(sphere(4));
+  SurfaceInput none;
+  QuadProblem problem = problemOf(none);
+  problem.symmetry.emplace().plane = MirrorPlane{ Vector3::Zero(), Vector3::UnitX() };
+  const QuadsMade before = expectWay(surface, Way::Symmetric, problem);
+  const QuadMesh& quads = before.remeshed.quads;
+  std::size_t irregular = 0;
+  while (quads.valence[irregular] == kRegularValence || quads.points[irregular].x() < 0.3)
+  {
+    ++irregular;
+    ASSERT_LT(irregular, quads.points.size());
+  }
+  const Vector3 from = quads.points[irregular];
+  PlacedConstraint move;
+  move.kind = ConstraintKind::Move;
+  move.path = { from, (from + 0.15 * from.unitOrthogonal()).normalized() };
+  std::vector<PlacedConstraint> placed{ move };
+  problem.placed = &placed;
+  const QuadsMade made = expectWay(surface, Way::Symmetric, problem);
+  EXPECT_EQ(placed.front().whyNot, "");
+  for (const double side : { 1.0, -1.0 })
+  {
+    const Vector3 to(
+      side * placed.front().path[1].x(), placed.front().path[1].y(), placed.front().path[1].z());
+    const QuadMesh& moved = made.remeshed.quads;
+    double nearest = 1;
+    for (std::size_t p = 0; p < moved.points.size(); ++p)
+    {
+      nearest = moved.valence[p] == quads.valence[irregular]
+        ? std::min(nearest, (moved.points[p] - to).norm())
+        : nearest;
+    }
+    EXPECT_LT(nearest, 0.3 * made.remeshed.targetEdgeLength);
+  }
+}
+
 TEST(Ways, PiecesAreCutWhereTheyAreAskedFor)
 {
   const SurfaceInput surface = toInput(torus(160, 80, 2, 0.8));
@@ -219,15 +259,21 @@ TEST(Ways, WhatCannotBeTogetherIsRefusedBeforeAnyWork)
   EXPECT_EQ(whyNotSpread({}), "");
 }
 
-TEST(Ways, ASymmetryHasAnExactImage)
+TEST(Ways, ASymmetryIsOneOfAnyPolygons)
 {
-  const SurfaceInput surface = toInput(torus(60, 30, 2, 0.8));
+  const SurfaceInput triangles = toInput(torus(60, 30, 2, 0.8));
   SurfaceInput none;
   QuadProblem problem = problemOf(none);
   problem.symmetry.emplace().plane = MirrorPlane{ Vector3::Zero(), Vector3::UnitX() };
-  const QuadsMade made = expectWay(surface, Way::Symmetric, problem);
-  ASSERT_TRUE(made.symmetry);
-  EXPECT_EQ(made.symmetry->mirrorPoint.size(), made.remeshed.quads.points.size());
+  problem.options.finalQuality = FinalQuality::Input;
+  problem.options.mergeCharts = true;
+  for (const SurfaceInput& surface : { triangles, squaresOf(triangles) })
+  {
+    const QuadsMade made = expectWay(surface, Way::Symmetric, problem);
+    ASSERT_TRUE(made.symmetry);
+    EXPECT_EQ(made.symmetry->mirrorPoint.size(), made.remeshed.quads.points.size());
+    EXPECT_GT(made.remeshed.charts.charts, 0U);
+  }
 }
 
 } // namespace
