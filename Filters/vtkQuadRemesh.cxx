@@ -147,6 +147,7 @@ quadrille::RemeshOptions vtkQuadRemesh::MakeRunOptions(const quadrille::Block& b
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
   options.distortionMetric = this->DistortionMetric != 0;
   options.mergeCharts = this->MakesMappedSurface();
+  options.keepsPositions = false; // unless something asks for them
   options.progress = this->MakeProgress(0.02, 0.95);
   options.warmStart = this->WarmStart != 0;
   options.preview = this->Preview != 0;

@@ -127,6 +127,7 @@ py::dict remeshCall(const py::dict& surface, const std::string& settings, const 
   settingsFromText(settings, options);
   options.preview = howTo.preview;
   options.mergeCharts = howTo.everything;
+  options.keepsPositions = false; // unless something asks for them
   ProgressCall call(progress, true, howTo.timeLimit);
   options.progress = call.callback(0.02, 0.95);
   SurfaceInput input = surfaceFrom(surface);

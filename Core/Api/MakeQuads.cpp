@@ -93,6 +93,7 @@ RemeshOptions runOptionsOf(const QuadOptions& options)
   run.maximumNumberOfQuads = options.maximumQuads;
   run.threads = options.threads;
   run.progress = options.progress;
+  run.keepsPositions = false;
   return run;
 }
 

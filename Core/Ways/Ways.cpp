@@ -172,8 +172,8 @@ RemeshOptions optionsOf(const QuadProblem& problem, bool leavesOutFailed, bool h
 {
   RemeshOptions options = problem.options;
   options.leavesOutFailed = options.leavesOutFailed && leavesOutFailed;
-  options.keepsPositions =
-    options.mergeCharts || problem.symmetry || problem.cellsByArea || hasMoves;
+  options.keepsPositions = options.keepsPositions || options.mergeCharts || problem.symmetry ||
+    problem.cellsByArea || hasMoves;
   return options;
 }
 

@@ -64,8 +64,8 @@ GivenSurface given(SurfaceInput& input);
 struct QuadProblem
 {
   GivenSurface surface;
-  /// With mergeCharts the map on the triangles of the input is wanted. keepsPositions follows from the rest, and
-  /// leavesOutFailed does not count for pieces and with a symmetry.
+  /// With mergeCharts the map on the triangles of the input is wanted. Positions are kept where that takes
+  /// them, whatever keepsPositions is; leavesOutFailed does not count for pieces and with a symmetry.
   RemeshOptions options;
   std::optional<SymmetryOptions> symmetry;
   bool cellsByArea =
