@@ -7,7 +7,6 @@
 #include "Blocks/LevelMemory.h"
 #include "Blocks/Together.h"
 #include "Common/Report.h"
-#include "Constraints/Moves.h"
 #include "Convert/MappedOutput.h"
 #include "Convert/PolyData.h"
 #include "Convert/Quads.h"
@@ -15,7 +14,7 @@
 #include "Pipeline/ResultStore.h"
 #include "Runs/Problems.h"
 #include "Runs/RunOfBlock.h"
-#include "Symmetry/Symmetry.h"
+#include "Ways/Ways.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
@@ -23,7 +22,6 @@
 #include "vtkTable.h"
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <ostream>
 #include <sstream>
@@ -123,16 +121,6 @@ void vtkQuadRemesh::CheckProperties() const
   {
     throw quadrille::InvalidInput("SmoothingSteps must be at least 0");
   }
-  if (this->Preview && this->Symmetry != SYMMETRY_NONE)
-  {
-    throw quadrille::InvalidInput(
-      "there is no preview of symmetric quads: switch Preview or Symmetry off");
-  }
-  if (this->Preview && this->Method == METHOD_SEAMLESS)
-  {
-    throw quadrille::InvalidInput("the method 'seamless' makes no quads, so there is nothing to "
-                                  "preview: switch Preview off or choose another method");
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -159,42 +147,11 @@ quadrille::RemeshOptions vtkQuadRemesh::MakeRunOptions(const quadrille::Block& b
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
   options.distortionMetric = this->DistortionMetric != 0;
   options.mergeCharts = this->MakesMappedSurface();
-  options.keepsPositions = this->MakesMappedSurface() || this->Symmetry != SYMMETRY_NONE ||
-    this->CellDataFrom != CELL_DATA_FROM_CENTRE;
+  options.keepsPositions = false; // unless something asks for them
   options.progress = this->MakeProgress(0.02, 0.95);
   options.warmStart = this->WarmStart != 0;
   options.preview = this->Preview != 0;
   return options;
-}
-
-//------------------------------------------------------------------------------
-quadrille::SymmetricResult vtkQuadRemesh::RunPipeline(quadrille::SurfaceInput surface,
-  const quadrille::RemeshOptions& options, quadrille::ResultStore* levels)
-{
-  if (this->Symmetry == SYMMETRY_NONE)
-  {
-    quadrille::SymmetricResult plain;
-    plain.remeshed = levels != nullptr ? quadrille::remesh(std::move(surface), options, *levels)
-                                       : quadrille::remesh(std::move(surface), options);
-    return plain;
-  }
-  quadrille::SymmetryOptions symmetry;
-  symmetry.planeCurve = static_cast<quadrille::PlaneCurve>(this->PlaneCurve);
-  if (this->Symmetry == SYMMETRY_PLANE)
-  {
-    symmetry.plane = quadrille::MirrorPlane{ quadrille::Vector3(this->SymmetryOrigin),
-      quadrille::Vector3(this->SymmetryNormal) };
-  }
-  if (this->Symmetry == SYMMETRY_AXIS || this->Symmetry == SYMMETRY_AXIS_FOUND)
-  {
-    symmetry.rotation = quadrille::RotationRequest{ this->RotationOrder, std::nullopt };
-  }
-  if (this->Symmetry == SYMMETRY_AXIS)
-  {
-    symmetry.rotation->axis = quadrille::RotationAxis{ quadrille::Vector3(this->SymmetryOrigin),
-      quadrille::Vector3(this->SymmetryNormal) };
-  }
-  return quadrille::remeshSymmetric(std::move(surface), options, symmetry, levels);
 }
 
 //------------------------------------------------------------------------------
@@ -303,54 +260,41 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
 {
   this->CheckProperties();
   vtkPolyData* input = block.input();
-  quadrille::RemeshOptions options = this->MakeRunOptions(block);
   quadrille::AskedConstraints asked;
-  const std::unique_ptr<quadrille::TriangleSource> toCut = this->TrianglesToCut(block, options);
-  const bool isThinned = !toCut && this->IsWorthThinning(block, options);
-  options.leavesOutFailed = this->FailedComponents == LEAVE_OUT_FAILED_COMPONENTS && !toCut &&
-    !isThinned && this->Symmetry == SYMMETRY_NONE;
-  quadrille::ConvertedSurface converted =
-    toCut ? this->ConvertForPieces(block) : this->ConvertInputs(block, &asked);
-  options.keepsPositions = options.keepsPositions || quadrille::asksForMoves(asked.placed);
-  quadrille::PiecesResult pieces;
+  std::optional<quadrille::ConvertedSurface> converted;
+  quadrille::QuadProblem problem = this->MakeQuadProblem(block, converted, asked);
+  const quadrille::RemeshOptions& options = problem.options;
   quadrille::LevelMemory* memory =
     this->KeepLevels ? &block.state->memoryAs<quadrille::LevelMemory>() : nullptr;
-  if (memory != nullptr && options.mergeCharts)
+  if (memory != nullptr)
   {
-    options.knownMap = memory->mapped.mapFor(input, this->TextureCoordinates);
+    problem.store = &memory->levels;
+    problem.options.knownMap =
+      options.mergeCharts ? memory->mapped.mapFor(input, this->TextureCoordinates) : 0;
   }
-  quadrille::ResultStore* levels = memory != nullptr ? &memory->levels : nullptr;
-  const auto run = [&](quadrille::SurfaceInput surface, const quadrille::RemeshOptions& how)
+  const quadrille::QuadsMade made = quadrille::remesh(problem);
+  if (!converted)
   {
-    if (!toCut && !isThinned)
-    {
-      return this->RunPipeline(std::move(surface), how, levels);
-    }
-    pieces = toCut ? quadrille::remeshInPieces(*toCut, how)
-                   : quadrille::remeshThinned(std::move(surface), how);
-    quadrille::SymmetricResult plain;
-    plain.remeshed = std::move(pieces.remeshed);
-    return plain;
-  };
-  std::vector<std::string> notices;
-  const quadrille::SymmetricResult made = quadrille::asksForMoves(asked.placed)
-    ? quadrille::remeshWithMoves(converted.input, options, run, asked.placed, notices)
-    : run(std::move(converted.input), options);
-  for (const std::string& notice : notices)
+    converted = this->ConvertForPieces(block);
+  }
+  for (const std::string& warning : made.warnings)
   {
-    this->AddWarning(notice);
+    this->AddWarning(warning);
   }
   const quadrille::RemeshResult& result = made.remeshed;
   asked.curves = result.curves;
   this->TellRun(block, result);
+  if (made.thinning)
+  {
+    this->AddNotice(
+      made.thinning->text() + " (Pieces Never, --pieces never, keeps the surface whole)");
+  }
   if (options.preview)
   {
     this->WritePreview(block, asked, result);
     return;
   }
-  const quadrille::RunOfBlock whole{ converted, asked, result,
-    this->Symmetry != SYMMETRY_NONE ? &made : nullptr, toCut || isThinned ? &pieces : nullptr };
-  this->WriteQuads(block, whole);
+  this->WriteQuads(block, { *converted, asked, made });
   if (!block.path.empty() && options.quads && !options.coarsestIntegers &&
     quadrille::isFarFrom(*options.quads, block))
   {
@@ -370,7 +314,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
       vtkPolyData* earlier =
         memory != nullptr ? memory->mapped.sameTriangles(result, input) : nullptr;
       quadrille::writeMapped(
-        result, options, { input, &converted, this->TextureCoordinates != 0, earlier }, mapped);
+        result, options, { input, &*converted, this->TextureCoordinates != 0, earlier }, mapped);
     }
     if (memory != nullptr)
     {

@@ -76,22 +76,19 @@
 #include "vtkQuadrilleSymmetryAlgorithm.h"
 
 #include <cstdint>  // for std::uint8_t
-#include <memory>   // for std::unique_ptr
 #include <optional> // for std::optional
 
 class vtkTable;
 
 namespace quadrille
 {
-class ResultStore;
-class TriangleSource;
 struct JoinedParts;
 struct JointSheets;
 struct MetSheets;
 struct PartContacts;
+struct QuadProblem;
 struct RunOfBlock;
 struct SurfaceInput;
-struct SymmetricResult;
 enum class TouchingSheets : std::uint8_t;
 }
 
@@ -294,8 +291,8 @@ public:
   /**
    * What becomes of connected components that have no map: LEAVE_OUT_FAILED_COMPONENTS makes quads of the others, and
    * tells it by a warning, in the certificate, by GetComponentsWithoutQuads() and in output 8;
-   * FAIL_WITH_FAILED_COMPONENTS makes no quads at all, as it is also for conforming blocks, surfaces that are thinned
-   * out or cut into pieces, and with a Symmetry. Default: LEAVE_OUT_FAILED_COMPONENTS.
+   * FAIL_WITH_FAILED_COMPONENTS makes no quads at all, as it is also for conforming blocks, surfaces that are cut into
+   * pieces, and with a Symmetry. Default: LEAVE_OUT_FAILED_COMPONENTS.
    */
   vtkSetClampMacro(FailedComponents, int, LEAVE_OUT_FAILED_COMPONENTS, FAIL_WITH_FAILED_COMPONENTS);
   vtkGetMacro(FailedComponents, int);
@@ -444,10 +441,11 @@ public:
    * are made on the thinned pieces together, and their points go back to the surface. That takes about a third of the
    * memory and less time, and holds nothing of the surface for the next execution. Automatic: from 4,000,000 triangles
    * on, where a quad has at least 66 of them, and with KeepLevels from 10,000,000 on; without KeepLevels a surface of
-   * 1,000,000 triangles or more is thinned out without being cut; where properties or inputs need the whole surface
-   * (constraints, symmetry, previews, the mapped surface, CellDataFrom by area, FinalQuality on the input, the method
-   * without quads, polygons with more than three corners), it stays whole. Always: also where it is smaller; what needs
-   * the whole surface is an error. Never: the surface stays whole. Default: Automatic.
+   * 1,000,000 triangles or more is thinned out without being cut; so is a larger one with
+   * constraints or polygons with more than three corners, which cannot be cut. What needs the whole surface keeps it
+   * whole: guides, moves, symmetry, the mapped surface, CellDataFrom by area, FinalQuality on the input, the method
+   * without quads. Always: also where it is smaller; what cannot be cut is an error. Never: the surface stays whole.
+   * Default: Automatic.
    */
   vtkSetClampMacro(Pieces, int, PIECES_AUTOMATIC, PIECES_NEVER);
   vtkGetMacro(Pieces, int);
@@ -565,8 +563,12 @@ private:
 
   void CheckProperties() const;
   quadrille::RemeshOptions MakeRunOptions(const quadrille::Block& block);
-  quadrille::SymmetricResult RunPipeline(quadrille::SurfaceInput surface,
-    const quadrille::RemeshOptions& options, quadrille::ResultStore* levels);
+  /// The block with what the properties ask for. converted, asked: filled when the surface is asked for as a whole;
+  /// all of it has to be there as long as the problem.
+  quadrille::QuadProblem MakeQuadProblem(quadrille::Block& block,
+    std::optional<quadrille::ConvertedSurface>& converted, quadrille::AskedConstraints& asked);
+  /// Symmetry, and where cell data come from.
+  void SetWishes(quadrille::QuadProblem& problem) const;
   void TellRun(quadrille::Block& block, const quadrille::RemeshResult& result);
   void WriteQuads(quadrille::Block& block, const quadrille::RunOfBlock& run);
   /// The options get the number of quads of all blocks; shares: of each, sum 1; sizes: of its quads for that share,
@@ -591,14 +593,8 @@ private:
   {
     return this->ComputeMappedSurface != 0 || this->Method == METHOD_SEAMLESS;
   }
-  /// Of the properties, why quads need the surface in one place; empty where they do not.
-  std::string ReasonForWhole() const;
-  std::string ReasonNotToCut(const quadrille::Block& block) const;
-  /// Of a surface that is not cut, whether it is thinned out before the quads are made.
-  bool IsWorthThinning(
-    const quadrille::Block& block, const quadrille::RemeshOptions& options) const;
-  std::unique_ptr<quadrille::TriangleSource> TrianglesToCut(
-    const quadrille::Block& block, const quadrille::RemeshOptions& options) const;
+  /// What is asked of the surface that its triangles do not tell; empty: nothing.
+  std::string WhyNotCut(const quadrille::Block& block) const;
   vtkIdType CountOverBlocks(const char* number) const
   {
     return static_cast<vtkIdType>(this->SumOverBlocks(number));

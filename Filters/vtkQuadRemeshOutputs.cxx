@@ -10,15 +10,12 @@
 #include "Constraints/Constraints.h"
 #include "Convert/PolyData.h"
 #include "Convert/Quads.h"
-#include "Pipeline/Pipeline.h"
-#include "Quads/PolygonUnder.h"
 #include "Quads/QuadShape.h"
-#include "Runs/InPieces.h"
 #include "Runs/Problems.h"
 #include "Runs/RunOfBlock.h"
 #include "Runs/SmallDetails.h"
 #include "Runs/Symmetry.h"
-#include "Symmetry/Symmetry.h"
+#include "Ways/Ways.h"
 
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -26,7 +23,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -34,17 +31,25 @@
 namespace
 {
 
-quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
-  const quadrille::ConvertedSurface& converted, vtkPolyData* input)
+quadrille::QuadSource sourceOf(const quadrille::QuadsMade& made,
+  const quadrille::ConvertedSurface& converted, vtkPolyData* input, int threads)
 {
   quadrille::QuadSource source;
   source.carrier = input;
   source.patchArray = converted.patchArray;
-  source.carrierPoint = [&surface, &converted, input](
-                          quadrille::Index face, const std::array<double, 3>& weights)
-  { return quadrille::pointOrigin(surface, converted, input, face, weights); };
-  source.carrierCell = [&surface, &converted](quadrille::Index face)
-  { return converted.cell(surface.sourcePolygon[face]); };
+  source.threads = threads;
+  source.carrierCell = [&made, &converted](quadrille::Index face)
+  { return converted.cell(made.polygonOf(face)); };
+  const std::vector<quadrille::SourceLocation> ofPoints = made.pointSources(threads);
+  for (const quadrille::SourceLocation& at : ofPoints)
+  {
+    source.pointOrigins.push_back(quadrille::pointOrigin(at, converted, input));
+    source.pointCells.push_back(converted.cell(at.polygon));
+  }
+  for (const quadrille::Index polygon : made.quadPolygons(ofPoints))
+  {
+    source.quadCells.push_back(converted.cell(polygon));
+  }
   return source;
 }
 
@@ -118,40 +123,11 @@ std::string constraintText(const std::vector<quadrille::ConstraintWord>& words)
 //------------------------------------------------------------------------------
 void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBlock& run)
 {
-  const quadrille::RemeshResult& result = run.result;
+  const quadrille::RemeshResult& result = run.made.remeshed;
+  const std::optional<quadrille::MadeSymmetry>& symmetry = run.made.symmetry;
   vtkPolyData* input = block.input();
-  quadrille::QuadSource source = sourceOf(result.surface, run.converted, input);
-  if (result.surface.beforeFlips && run.symmetric == nullptr && run.pieces == nullptr)
-  {
-    // A flipped face lies in several cells.
-    for (std::size_t q = 0; q < result.quads.quads.size(); ++q)
-    {
-      source.quadCells.push_back(
-        run.converted.cell(quadrille::polygonUnder(result.surface, result.quads, q)));
-    }
-    for (std::size_t p = 0; p < result.quads.points.size(); ++p)
-    {
-      const quadrille::SourceLocation at =
-        result.surface.locate(result.quads.sourceFace[p], result.quads.sourceWeights[p]);
-      source.pointCells.push_back(run.converted.cell(at.polygon));
-    }
-  }
+  quadrille::QuadSource source = sourceOf(run.made, run.converted, input, this->NumberOfThreads);
   source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
-  source.threads = this->NumberOfThreads;
-  if (run.symmetric != nullptr)
-  {
-    quadrille::addMirrorSources(*run.symmetric, run.converted, input, source);
-  }
-  if (run.pieces != nullptr)
-  {
-    quadrille::addPieceSources(*run.pieces, result.quads, run.converted, input, source);
-    const std::string cut = run.pieces->pieces > 1
-      ? "the surface was cut into " + std::to_string(run.pieces->pieces) + " pieces, which were"
-      : "the surface was";
-    this->AddNotice(cut + " thinned out to " + std::to_string(run.pieces->joinedTriangles) +
-      " triangles before quads were made; the certificate is that of their map (Pieces Never, "
-      "--pieces never, keeps the surface whole)");
-  }
   const quadrille::QuadOutputs written =
     quadrille::writeOutputs(result.quads, result.surface.mesh, result.uv, source);
   std::vector<std::string>& notices = block.state->report.notices;
@@ -163,9 +139,9 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
     quads, quadrille::methodFields(static_cast<quadrille::MapMethod>(this->Method)));
   quadrille::addFields(
     quads, quadrille::anisotropyFields(this->AnisotropyLimit, result.beyondAnisotropyLimit));
-  if (run.symmetric != nullptr)
+  if (symmetry)
   {
-    quadrille::addSymmetry(quads, *run.symmetric);
+    quadrille::addSymmetry(quads, *symmetry);
   }
   block.output(2)->ShallowCopy(written.lines);
   block.output(3)->ShallowCopy(written.separatrices);
@@ -183,10 +159,10 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   quadrille::addText(quads, "Notices", notices);
   block.output(5)->ShallowCopy(quadrille::writeConstraints(
     run.asked.placed, result.quads, quadrille::metOfDrawn(words, run.asked)));
-  if (run.symmetric != nullptr)
+  if (symmetry)
   {
-    words.push_back(quadrille::judgeSymmetry(*run.symmetric));
-    quadrille::addMirrorLines(block.output(5), *run.symmetric, words.back().isMet);
+    words.push_back(quadrille::judgeSymmetry(*symmetry));
+    quadrille::addMirrorLines(block.output(5), result.quads, *symmetry, words.back().isMet);
   }
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
   block.output(7)->ShallowCopy(

@@ -2,59 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadRemesh.h"
 
-#include "Base/Error.h"
 #include "Blocks/Blocks.h"
-#include "Convert/Quads.h"
+#include "Constraints/Constraints.h"
+#include "Convert/PolyData.h"
 #include "Pipeline/Options.h"
 #include "Ranks/Spread.h"
 #include "Runs/InPieces.h"
+#include "Ways/Ways.h"
 
 #include "vtkPolyData.h"
 
 #include <cstddef>
-#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 //------------------------------------------------------------------------------
-std::string vtkQuadRemesh::ReasonForWhole() const
+std::string vtkQuadRemesh::WhyNotCut(const quadrille::Block& block) const
 {
-  if (this->Symmetry != SYMMETRY_NONE)
-  {
-    return "symmetric quads need the whole surface";
-  }
-  if (this->Preview)
-  {
-    return "a preview has no quads on the surface";
-  }
-  if (this->Method == METHOD_SEAMLESS)
-  {
-    return "the method 'seamless' makes no quads";
-  }
-  if (this->CellDataFrom != CELL_DATA_FROM_CENTRE)
-  {
-    return "cell data by area need all cells under a quad";
-  }
-  return {};
-}
-
-//------------------------------------------------------------------------------
-std::string vtkQuadRemesh::ReasonNotToCut(const quadrille::Block& block) const
-{
-  const std::string reason = this->ReasonForWhole();
-  if (!reason.empty())
-  {
-    return reason;
-  }
-  if (this->ComputeMappedSurface)
-  {
-    return "the mapped surface is that of the whole (Compute Mapped Surface)";
-  }
-  if (this->FinalQuality == Input)
-  {
-    return "final quality on the input needs the map of the whole surface";
-  }
   if (!this->GetGuideArrayInUse().empty())
   {
     return "directions by an array are those of the whole surface";
@@ -72,60 +38,64 @@ std::string vtkQuadRemesh::ReasonNotToCut(const quadrille::Block& block) const
 }
 
 //------------------------------------------------------------------------------
-std::unique_ptr<quadrille::TriangleSource> vtkQuadRemesh::TrianglesToCut(
-  const quadrille::Block& block, const quadrille::RemeshOptions& options) const
+void vtkQuadRemesh::SetWishes(quadrille::QuadProblem& problem) const
 {
-  vtkPolyData* input = block.input();
-  const auto cells = static_cast<std::size_t>(input->GetNumberOfPolys());
-  constexpr std::size_t leastWithLevels = 10000000; // what is held of the whole would be gigabytes
-  if (this->Pieces == PIECES_NEVER || quadrille::isJoined(input) ||
-    (this->Pieces == PIECES_AUTOMATIC &&
-      cells < (this->KeepLevels ? leastWithLevels : quadrille::kTrianglesWorthPieces)))
+  problem.cellsByArea = this->CellDataFrom != CELL_DATA_FROM_CENTRE;
+  if (this->Symmetry == SYMMETRY_NONE)
   {
-    return nullptr;
+    return;
   }
-  std::string reason = this->ReasonNotToCut(block);
-  std::unique_ptr<quadrille::TriangleSource> triangles;
-  if (reason.empty())
+  quadrille::SymmetryOptions& symmetry = problem.symmetry.emplace();
+  symmetry.planeCurve = static_cast<quadrille::PlaneCurve>(this->PlaneCurve);
+  const quadrille::Vector3 origin(this->SymmetryOrigin), direction(this->SymmetryNormal);
+  if (this->Symmetry == SYMMETRY_PLANE)
   {
-    triangles = quadrille::trianglesOf(input);
-    reason = triangles ? ""
-                       : "it has polygons that are no triangles, or points that are not float "
-                         "or double";
+    symmetry.plane = quadrille::MirrorPlane{ origin, direction };
   }
-  if (this->Pieces == PIECES_AUTOMATIC)
+  if (this->Symmetry == SYMMETRY_AXIS || this->Symmetry == SYMMETRY_AXIS_FOUND)
   {
-    return triangles && quadrille::isWorthPieces(*triangles, options) ? std::move(triangles)
-                                                                      : nullptr;
+    symmetry.rotation = quadrille::RotationRequest{ this->RotationOrder, std::nullopt };
   }
-  if (!triangles)
+  if (this->Symmetry == SYMMETRY_AXIS)
   {
-    throw quadrille::InvalidInput(
-      "the surface cannot be cut into pieces: " + reason + "; set Pieces to Automatic or Never");
+    symmetry.rotation->axis = quadrille::RotationAxis{ origin, direction };
   }
-  return triangles;
 }
 
 //------------------------------------------------------------------------------
-bool vtkQuadRemesh::IsWorthThinning(
-  const quadrille::Block& block, const quadrille::RemeshOptions& options) const
+quadrille::QuadProblem vtkQuadRemesh::MakeQuadProblem(quadrille::Block& block,
+  std::optional<quadrille::ConvertedSurface>& converted, quadrille::AskedConstraints& asked)
 {
+  quadrille::QuadProblem problem;
   vtkPolyData* input = block.input();
-  if (this->Pieces != PIECES_AUTOMATIC || this->KeepLevels || quadrille::isJoined(input) ||
-    static_cast<std::size_t>(input->GetNumberOfPolys()) < quadrille::kTrianglesWorthThinning ||
-    !this->ReasonNotToCut(block).empty())
+  quadrille::GivenSurface& surface = problem.surface;
+  surface.polygons = static_cast<std::size_t>(input->GetNumberOfPolys());
+  surface.triangles = [input] { return quadrille::trianglesOf(input); };
+  surface.whyNotCut = this->WhyNotCut(block);
+  surface.whole = [this, &block, &converted, &asked]
   {
-    return false;
-  }
-  const std::unique_ptr<quadrille::TriangleSource> triangles = quadrille::trianglesOf(input);
-  return triangles && quadrille::isWorthThinning(*triangles, options);
+    converted = this->ConvertInputs(block, &asked);
+    return std::move(converted->input);
+  };
+  problem.options = this->MakeRunOptions(block);
+  problem.options.leavesOutFailed = this->FailedComponents == LEAVE_OUT_FAILED_COMPONENTS;
+  this->SetWishes(problem);
+  // Joined pieces are thinned out already.
+  problem.thinning = quadrille::isJoined(input) ? quadrille::Thinning::Never
+                                                : static_cast<quadrille::Thinning>(this->Pieces);
+  problem.placed = &asked.placed;
+  return problem;
 }
 
 //------------------------------------------------------------------------------
 std::string vtkQuadRemesh::ReasonNotToSpread(
   const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
 {
-  const std::string reason = this->ReasonForWhole();
+  quadrille::QuadProblem problem;
+  problem.options.method = static_cast<quadrille::MapMethod>(this->Method);
+  problem.options.preview = this->Preview != 0;
+  this->SetWishes(problem);
+  const std::string reason = quadrille::whyNotSpread(problem);
   return reason.empty() ? quadrille::reasonNotToSpread(pieces, this->GetGuideArrayInUse()) : reason;
 }
 

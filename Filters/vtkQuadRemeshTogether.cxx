@@ -11,7 +11,6 @@
 #include "Blocks/LevelMemory.h"
 #include "Blocks/Together.h"
 #include "Common/Report.h"
-#include "Constraints/Moves.h"
 #include "Convert/MappedOutput.h"
 #include "Convert/PolyData.h"
 #include "Convert/Quads.h"
@@ -21,6 +20,7 @@
 #include "Pipeline/ResultStore.h"
 #include "Requests/SurfacePlaces.h"
 #include "Runs/RunOfBlock.h"
+#include "Session/Moves.h"
 
 #include <algorithm>
 #include <cmath>
@@ -174,15 +174,17 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
     quadrille::Block& block = *blocks[i];
-    const quadrille::RemeshResult& own = results[i].result;
-    results[i].result.targetQuads = static_cast<std::size_t>(
+    quadrille::QuadsMade made;
+    made.remeshed = std::move(results[i].result);
+    quadrille::RemeshResult& own = made.remeshed;
+    own.targetQuads = static_cast<std::size_t>(
       std::lround(shares[i] * static_cast<double>(result.targetQuads) / oncePerFace));
     asked[i].curves = own.curves;
     if (own.quads.quads.empty() && this->Method != METHOD_SEAMLESS)
     {
       withoutQuads.push_back(i);
     }
-    this->WriteQuads(block, { converted[i], asked[i], own, nullptr, nullptr });
+    this->WriteQuads(block, { converted[i], asked[i], made });
     quadrille::reverseQuads(block.output(0), results[i].reversed);
     quadrille::addText(block.output(0), "ConformingWith", quadrille::namesOfOthers(blocks, i));
     block.state->report.numbers["TargetQuads"] = static_cast<double>(own.targetQuads);
@@ -274,18 +276,26 @@ quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
   const std::vector<double>& sizes, std::optional<quadrille::JointSheets>& sheets,
   quadrille::TouchingSheets touching)
 {
-  quadrille::ResultStore* levels =
+  quadrille::QuadProblem problem;
+  problem.options = options;
+  problem.cellsByArea = this->CellDataFrom != CELL_DATA_FROM_CENTRE;
+  problem.thinning = quadrille::Thinning::Never;
+  problem.store =
     this->KeepLevels ? &first.state->memoryAs<quadrille::LevelMemory>().levels : nullptr;
   const auto run = [&]()
   {
+    quadrille::SurfaceInput whole;
     if (!sheets)
     {
-      return this->RunPipeline(joined.input, options, levels).remeshed;
+      whole = joined.input;
+      problem.surface = quadrille::given(whole);
+      return quadrille::remesh(problem).remeshed;
     }
     sheets = quadrille::cutIntoSheets(joined.input, options.featureAngle, touching);
     const quadrille::PlaceFold fold(
       [&sheets](const quadrille::Vector3& place) { return sheets->movedBack(place); });
-    return this->RunPipeline(std::move(sheets->input), options, levels).remeshed;
+    problem.surface = quadrille::given(sheets->input);
+    return quadrille::remesh(problem).remeshed;
   };
   constexpr double nothing = 0.01;
   const bool isUniform = std::all_of(

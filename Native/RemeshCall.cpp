@@ -18,49 +18,6 @@ namespace quadrille::native
 namespace
 {
 
-/// The triangles of a surface as they are.
-class InputTriangles : public TriangleSource
-{
-public:
-  explicit InputTriangles(const SurfaceInput& input) : input_(input) {}
-
-  std::size_t pointCount() const override { return input_.points.size(); }
-  std::size_t triangleCount() const override { return input_.polygonOffsets.size() - 1; }
-  void corners(std::size_t begin, std::size_t end, Index* ids) const override
-  {
-    std::copy(input_.polygonPoints.data() + 3 * begin, input_.polygonPoints.data() + 3 * end, ids);
-  }
-  void positions(const Index* ids, std::size_t count, Vector3* places) const override
-  {
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      places[i] = input_.points[ids[i]];
-    }
-  }
-
-private:
-  const SurfaceInput& input_;
-};
-
-bool hasOnlyTriangles(const SurfaceInput& input)
-{
-  for (std::size_t i = 0; i < input.polygonOffsets.size(); ++i)
-  {
-    if (input.polygonOffsets[i] != 3 * i)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool asksForNothing(const SurfaceInput& input)
-{
-  return input.featureEdges.empty() && input.patchIds.empty() && input.guideDirections.empty() &&
-    input.targetValences.empty() && input.sizing.empty() && input.curves.empty() &&
-    input.drawn.empty();
-}
-
 /// What the run is asked for beside the surface and the settings.
 struct HowToRun
 {
@@ -158,45 +115,6 @@ PlacedConstraints placeLines(
   return placement.result();
 }
 
-/// The surface is cut into pieces or thinned out where that is worth it, as vtkQuadRemesh does.
-std::optional<PiecesResult> runInPieces(
-  SurfaceInput& input, const HowToRun& how, const RemeshOptions& options)
-{
-  if (how.symmetry || how.preview || how.everything || options.method == MapMethod::Seamless ||
-    options.finalQuality == FinalQuality::Input || !asksForNothing(input) ||
-    input.polygonOffsets.size() <= kTrianglesWorthThinning || !hasOnlyTriangles(input))
-  {
-    return std::nullopt;
-  }
-  const InputTriangles triangles(input);
-  if (triangles.triangleCount() >= kTrianglesWorthPieces && isWorthPieces(triangles, options))
-  {
-    return remeshInPieces(triangles, options);
-  }
-  if (isWorthThinning(triangles, options))
-  {
-    return remeshThinned(std::move(input), options);
-  }
-  return std::nullopt;
-}
-
-void run(SurfaceInput input, const HowToRun& how, Remeshed& remeshed)
-{
-  remeshed.pieces = runInPieces(input, how, remeshed.options);
-  if (remeshed.pieces)
-  {
-    remeshed.made.remeshed = std::move(remeshed.pieces->remeshed);
-  }
-  else if (how.symmetry)
-  {
-    remeshed.made = remeshSymmetric(std::move(input), remeshed.options, *how.symmetry);
-  }
-  else
-  {
-    remeshed.made.remeshed = remesh(std::move(input), remeshed.options);
-  }
-}
-
 } // namespace
 
 py::dict remeshCall(const py::dict& surface, const std::string& settings, const py::dict& how,
@@ -204,13 +122,12 @@ py::dict remeshCall(const py::dict& surface, const std::string& settings, const 
 {
   const HowToRun howTo = howToRun(how);
   Remeshed remeshed;
-  remeshed.isSymmetric = howTo.symmetry.has_value();
   remeshed.everything = howTo.everything;
   RemeshOptions& options = remeshed.options;
   settingsFromText(settings, options);
   options.preview = howTo.preview;
   options.mergeCharts = howTo.everything;
-  options.keepsPositions = howTo.everything || howTo.symmetry;
+  options.keepsPositions = false; // unless something asks for them
   ProgressCall call(progress, true, howTo.timeLimit);
   options.progress = call.callback(0.02, 0.95);
   SurfaceInput input = surfaceFrom(surface);
@@ -223,7 +140,11 @@ py::dict remeshCall(const py::dict& surface, const std::string& settings, const 
       PlacedConstraints placed = placeLines(input, std::move(drawn), howTo.strokeRadius);
       remeshed.asked.placed = std::move(placed.placed);
       remeshed.notices = std::move(placed.notices);
-      run(std::move(input), howTo, remeshed);
+      QuadProblem problem;
+      problem.surface = given(input);
+      problem.options = options;
+      problem.symmetry = howTo.symmetry;
+      remeshed.made = remesh(problem);
     });
   call.rethrow();
   const RemeshResult& result = remeshed.made.remeshed;
@@ -236,6 +157,10 @@ py::dict remeshCall(const py::dict& surface, const std::string& settings, const 
     throw RunFailure(result.status.message.empty() ? "remeshing failed" : result.status.message);
   }
   remeshed.asked.curves = result.curves;
+  if (remeshed.made.thinning)
+  {
+    remeshed.notices.push_back(remeshed.made.thinning->text());
+  }
   remeshed.notices.insert(remeshed.notices.end(), result.notices.begin(), result.notices.end());
   py::dict dict = resultDict(remeshed);
   if (result.stopped.empty()) // who has asked for a stop is not called again

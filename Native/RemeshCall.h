@@ -4,12 +4,10 @@
 #pragma once
 
 #include "Evaluation/ConstraintWords.h"
-#include "Pieces/RemeshInPieces.h"
-#include "Symmetry/Symmetry.h"
+#include "Ways/Ways.h"
 
 #include <pybind11/pybind11.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +19,7 @@ namespace py = pybind11;
 /// What was made, and of what.
 struct Remeshed
 {
-  SymmetricResult made;
-  bool isSymmetric = false;
-  std::optional<PiecesResult>
-    pieces; ///< where the surface was cut or thinned; its result is in `made`
+  QuadsMade made;
   AskedConstraints asked;
   std::vector<float> sizing; ///< of the input, to be judged
   std::vector<std::string> notices;

@@ -4,7 +4,6 @@
 
 #include "GridMap/Certificate.h"
 #include "Native/Arrays.h"
-#include "Quads/PolygonUnder.h"
 #include "Quads/QuadLayout.h"
 
 #include <cmath>
@@ -18,44 +17,9 @@ namespace
 
 using Id = std::int64_t;
 
-/// Per point where it lies on the input.
-std::vector<SourceLocation> pointSources(const Remeshed& remeshed)
-{
-  const QuadMesh& quads = remeshed.made.remeshed.quads;
-  if (remeshed.isSymmetric)
-  {
-    return remeshed.made.pointSources;
-  }
-  if (remeshed.pieces)
-  {
-    return sourcesOfPoints(*remeshed.pieces, quads);
-  }
-  std::vector<SourceLocation> sources;
-  for (std::size_t p = 0; p < quads.points.size(); ++p)
-  {
-    sources.push_back(
-      remeshed.made.remeshed.surface.locate(quads.sourceFace[p], quads.sourceWeights[p]));
-  }
-  return sources;
-}
-
-/// Per quad the polygon of the input under its centre.
-std::vector<Id> quadSources(const Remeshed& remeshed, const std::vector<SourceLocation>& ofPoints)
-{
-  const RemeshResult& result = remeshed.made.remeshed;
-  std::vector<Id> polygons;
-  for (std::size_t q = 0; q < result.quads.quads.size(); ++q)
-  {
-    polygons.push_back(remeshed.isSymmetric ? remeshed.made.quadPolygons[q]
-        : remeshed.pieces ? sourceOfQuad(*remeshed.pieces, result.quads, ofPoints, q)
-                          : polygonUnder(result.surface, result.quads, q));
-  }
-  return polygons;
-}
-
 void addSources(const Remeshed& remeshed, py::dict& dict)
 {
-  const std::vector<SourceLocation> sources = pointSources(remeshed);
+  const std::vector<SourceLocation> sources = remeshed.made.pointSources(remeshed.options.threads);
   std::vector<Id> polygons;
   std::vector<std::array<Index, 3>> points;
   std::vector<std::array<double, 3>> weights;
@@ -67,7 +31,7 @@ void addSources(const Remeshed& remeshed, py::dict& dict)
   }
   dict["point_source"] =
     py::make_tuple(arrayFrom(polygons), rowsFrom<Id>(points), rowsFrom<double>(weights));
-  dict["quad_source"] = arrayFrom(quadSources(remeshed, sources));
+  dict["quad_source"] = castArrayFrom<Id>(remeshed.made.quadPolygons(sources));
 }
 
 py::dict layoutFields(const QuadLayout& layout)
@@ -94,7 +58,7 @@ void addFields(const RunFields& fields, py::dict& dict)
   }
 }
 
-void addSymmetryFields(const SymmetricResult& made, py::dict& fields)
+void addSymmetryFields(const MadeSymmetry& made, py::dict& fields)
 {
   const auto numbers = [](const Vector3& v) { return py::make_tuple(v.x(), v.y(), v.z()); };
   if (made.rotation)
@@ -136,9 +100,9 @@ py::dict wordDict(const ConstraintWord& word, std::size_t id)
 
 py::list constraintDicts(std::vector<ConstraintWord> words, const Remeshed& remeshed)
 {
-  if (remeshed.isSymmetric)
+  if (remeshed.made.symmetry)
   {
-    words.push_back(judgeSymmetry(remeshed.made));
+    words.push_back(judgeSymmetry(*remeshed.made.symmetry));
   }
   py::list list;
   for (const ConstraintWord& word : words)
@@ -275,7 +239,7 @@ std::vector<double> sizesAtPoints(const Remeshed& remeshed)
   {
     return sizes;
   }
-  for (const SourceLocation& at : pointSources(remeshed))
+  for (const SourceLocation& at : remeshed.made.pointSources(remeshed.options.threads))
   {
     double size = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -313,12 +277,12 @@ py::dict resultDict(const Remeshed& remeshed)
     addFields(methodFields(remeshed.options.method), fields);
     addFields(
       anisotropyFields(remeshed.options.anisotropyLimit, result.beyondAnisotropyLimit), fields);
-    if (remeshed.isSymmetric)
+    if (const auto& symmetry = remeshed.made.symmetry)
     {
-      const bool turns = remeshed.made.rotation.has_value();
+      const bool turns = symmetry->rotation.has_value();
       pointData[turns ? "RotatedPoint" : "MirrorPoint"] =
-        castArrayFrom<Id>(turns ? remeshed.made.rotatedPoint : remeshed.made.mirrorPoint);
-      addSymmetryFields(remeshed.made, fields);
+        castArrayFrom<Id>(turns ? symmetry->rotatedPoint : symmetry->mirrorPoint);
+      addSymmetryFields(*symmetry, fields);
     }
     if (remeshed.everything)
     {

@@ -443,8 +443,8 @@ void addRun(CommandOptions& options, vtkQuadRemesh* filter, Request& request)
     "whether the surface is cut into pieces of about a million triangles, each thinned out by "
     "itself before the quads are made, which takes less time and a third of the memory: automatic "
     "(default), from 4000000 triangles on, where a quad has at least 66 of them and nothing needs "
-    "the whole surface, as constraints, a symmetry or --map do, and from 1000000 on thinned out "
-    "in one piece; always; never");
+    "the whole surface, as guides, a symmetry or --map do, and from 1000000 on, or with other "
+    "constraints, thinned out in one piece; always; never");
   options.addNumber(
     "memory-limit", "MB", { 0, 1e12 },
     [filter](double megabytes) { filter->SetMemoryLimit(megabytes); },

@@ -5,8 +5,7 @@
 #include "Base/Angles.h"
 #include "Base/Error.h"
 #include "Base/Refuse.h"
-#include "Pipeline/Pipeline.h"
-#include "Quads/PolygonUnder.h"
+#include "Ways/Ways.h"
 
 #include <algorithm>
 #include <numeric>
@@ -94,28 +93,28 @@ RemeshOptions runOptionsOf(const QuadOptions& options)
   run.maximumNumberOfQuads = options.maximumQuads;
   run.threads = options.threads;
   run.progress = options.progress;
+  run.keepsPositions = false;
   return run;
 }
 
-QuadResult resultOf(RemeshResult& run)
+QuadResult resultOf(QuadsMade& made, int threads)
 {
+  RemeshResult& run = made.remeshed;
   const QuadMesh& mesh = run.quads;
   QuadResult result;
   result.points.resize(mesh.points.size());
-  result.pointPlaces.resize(mesh.points.size());
-  for (std::size_t p = 0; p < mesh.points.size(); ++p)
-  {
-    const Vector3& point = mesh.points[p];
-    result.points[p] = { point.x(), point.y(), point.z() };
-    const SourceLocation at = run.surface.locate(mesh.sourceFace[p], mesh.sourceWeights[p]);
-    result.pointPlaces[p] = { at.polygon, at.points, at.weights };
-  }
+  std::transform(mesh.points.begin(), mesh.points.end(), result.points.begin(),
+    [](const Vector3& p) {
+      return std::array<double, 3>{ p.x(), p.y(), p.z() };
+    });
+  const std::vector<SourceLocation> places = made.pointSources(threads);
+  result.pointPlaces.resize(places.size());
+  std::transform(places.begin(), places.end(), result.pointPlaces.begin(),
+    [](const SourceLocation& at) {
+      return SurfacePlace{ at.polygon, at.points, at.weights };
+    });
   result.quads = mesh.quads;
-  result.quadTriangles.resize(mesh.quads.size());
-  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
-  {
-    result.quadTriangles[q] = polygonUnder(run.surface, mesh, q);
-  }
+  result.quadTriangles = made.quadPolygons(places);
   for (const QuadLine& line : mesh.lines)
   {
     if (!line.boundary)
@@ -125,6 +124,10 @@ QuadResult resultOf(RemeshResult& run)
   }
   result.edgeLength = run.targetEdgeLength;
   result.notices = std::move(run.notices);
+  if (made.thinning)
+  {
+    result.notices.insert(result.notices.begin(), made.thinning->text());
+  }
   result.stopped = std::move(run.stopped);
   return result;
 }
@@ -135,7 +138,12 @@ QuadResult makeQuads(const TriangleMesh& mesh, const QuadOptions& options)
 {
   try
   {
-    RemeshResult run = remesh(inputOf(mesh), runOptionsOf(options));
+    SurfaceInput input = inputOf(mesh);
+    QuadProblem problem;
+    problem.surface = given(input);
+    problem.options = runOptionsOf(options);
+    QuadsMade made = remesh(problem);
+    const RemeshResult& run = made.remeshed;
     if (run.status.code == StatusCode::Cancelled)
     {
       throw StoppedError(run.status.message);
@@ -144,7 +152,7 @@ QuadResult makeQuads(const TriangleMesh& mesh, const QuadOptions& options)
     {
       throw NoQuadsError(run.status.message);
     }
-    return resultOf(run);
+    return resultOf(made, options.threads);
   }
   catch (const InvalidInput& error)
   {

@@ -124,16 +124,16 @@ public:
     StageLaps laps;
     const double quads =
       static_cast<double>(std::min(options.quads.value_or(0), options.maximumNumberOfQuads));
-    result_.estimate =
+    const RunEstimate estimate =
       estimateInPieces(source.triangleCount(), pieces.trianglesOfPiece, quads, options.threads);
-    result_.remeshed.status = memoryStatus(result_.estimate, source.triangleCount(), options);
+    result_.remeshed.status = memoryStatus(estimate, source.triangleCount(), options);
     if (!result_.remeshed.status.ok())
     {
-      result_.remeshed.estimate = result_.estimate;
+      result_.remeshed.estimate = estimate;
       return;
     }
     report(options.progress, 0,
-      "Cutting the surface: " + estimateText(result_.estimate) + " for " +
+      "Cutting the surface: " + estimateText(estimate) + " for " +
         std::to_string(source.triangleCount()) + " triangles");
     cut_ = cutIntoPieces(source, pieces.trianglesOfPiece, options.threads);
     shared_ = std::make_unique<SharedPoints>(source, cut_, options.threads);
@@ -151,10 +151,10 @@ public:
     result_.pieces = cut_.pieces();
     result_.joinedTriangles = joined.surface.polygonOffsets.size() - 1;
     laps.lap("join", result_.joinedTriangles, joined.surface.points.size());
-    remeshJoined(joined);
+    remeshJoined(joined, estimate);
     tellHandlesOfParts();
     laps.add(recordsOf(result_.remeshed));
-    if (result_.remeshed.status.ok())
+    if (result_.remeshed.status.ok() && !options.preview)
     {
       carry(joined);
       laps.lap("carry", result_.pointSource.size(), result_.quadSource.size());
@@ -366,13 +366,13 @@ private:
     return joinPieces(levels, ids, options_.featureAngle);
   }
 
-  void remeshJoined(const JoinedPieces& joined)
+  void remeshJoined(const JoinedPieces& joined, const RunEstimate& estimate)
   {
     RemeshOptions options = options_;
     options.progress = subProgress(options_.progress, 0.6, 0.9);
     options.mergeCharts = false;
     result_.remeshed = remesh(joined.surface, options);
-    result_.remeshed.estimate = result_.estimate;
+    result_.remeshed.estimate = estimate;
   }
 
   /// Those that were cut before the pieces were thinned.
@@ -461,24 +461,6 @@ private:
     sameAs_; ///< ids of the source, ascending, and the first one in that place
 };
 
-/// Whether thinned triangles would be far fewer.
-bool hasFineTriangles(const TriangleSource& source, const RemeshOptions& options)
-{
-  double quads = 0;
-  if (options.quads)
-  {
-    quads = static_cast<double>(*options.quads);
-  }
-  else
-  {
-    const SourceExtent extent = extentOf(source, options.threads);
-    const double s =
-      pieceOptionsOf(options, extent.area, extent.diagonal()).edgeLength / kEdgeOfPiece;
-    quads = extent.area / (s * s);
-  }
-  return static_cast<double>(source.triangleCount()) >= kTrianglesOfQuad * quads;
-}
-
 } // namespace
 
 void tellClosedHandles(const std::vector<SmallDetail>& closed, RemeshResult& result)
@@ -490,14 +472,13 @@ void tellClosedHandles(const std::vector<SmallDetail>& closed, RemeshResult& res
   }
 }
 
-bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options)
+std::string MadeThinning::text() const
 {
-  return source.triangleCount() >= kTrianglesWorthPieces && hasFineTriangles(source, options);
-}
-
-bool isWorthThinning(const TriangleSource& source, const RemeshOptions& options)
-{
-  return source.triangleCount() >= kTrianglesWorthThinning && hasFineTriangles(source, options);
+  const std::string cut = pieces > 1
+    ? "the surface was cut into " + std::to_string(pieces) + " pieces, which were"
+    : "the surface was";
+  return cut + " thinned out to " + std::to_string(joinedTriangles) +
+    " triangles before quads were made; the certificate is that of their map";
 }
 
 PiecesResult remeshInPieces(
@@ -525,7 +506,7 @@ PiecesResult remeshInPieces(
   return result;
 }
 
-std::vector<SourceLocation> sourcesOfPoints(const PiecesResult& made, const QuadMesh& mesh)
+std::vector<SourceLocation> sourcesOfPoints(const MadeThinning& made, const QuadMesh& mesh)
 {
   std::vector<SourceLocation> ofPoints = made.pointSource;
   const auto isMissing = [](const SourceLocation& at) { return at.polygon == kInvalidIndex; };
@@ -549,7 +530,7 @@ std::vector<SourceLocation> sourcesOfPoints(const PiecesResult& made, const Quad
   return ofPoints;
 }
 
-Index sourceOfQuad(const PiecesResult& made, const QuadMesh& mesh,
+Index sourceOfQuad(const MadeThinning& made, const QuadMesh& mesh,
   const std::vector<SourceLocation>& sourcesOfPoints, std::size_t q)
 {
   const Index polygon = made.quadSource[q].polygon;

@@ -35,54 +35,54 @@ public:
   virtual void positions(const Index* ids, std::size_t count, Vector3* places) const = 0;
 };
 
-/// From how many triangles on a surface is worth to be cut, and from how many of them a quad: thinned pieces have about
-/// 22.
-constexpr std::size_t kTrianglesWorthPieces = 4000000;
-constexpr double kTrianglesOfQuad = 66;
 constexpr std::size_t kTrianglesOfPiece = 1000000;
-/// From how many triangles on a surface that is not worth to be cut is thinned out as a whole.
-constexpr std::size_t kTrianglesWorthThinning = 1000000;
 
 struct PiecesOptions
 {
   std::size_t trianglesOfPiece = kTrianglesOfPiece; ///< about, >= 1000
 };
 
-struct PiecesResult
+/// How a surface was thinned out before its quads were made, and where these lie on it.
+struct MadeThinning
 {
-  /// Of the joined surface; points and sources of the quads: see below. Its surface has the thinned triangles. Stages
+  /// Where the points of the quads lie on the triangles of the source. A point whose triangle is none of the source's,
+  /// as where a handle was closed, has kInvalidIndex there and the place that it has on the joined surface. Both are
+  /// empty of a preview.
+  std::vector<SourceLocation> pointSource; ///< #points of the quads
+  std::vector<SourceLocation> quadSource;  ///< #quads; the same of their centres
+  std::size_t pieces = 0;
+  std::size_t joinedTriangles = 0;
+  /// Of a surface in one piece: of each thinned triangle a polygon of the input on the same side of features.
+  std::vector<Index> polygonBeside;
+
+  /// "the surface was thinned out to 20000 triangles ..."
+  std::string text() const;
+};
+
+struct PiecesResult : MadeThinning
+{
+  /// Of the joined surface; points and sources of the quads: see above. Its surface has the thinned triangles. Stages
   /// are cut, thin, join, those of remesh(), and carry; within thin there are thin:repair, thin:order,
   /// thin:connectivity and thin:phase1, whose seconds are sums over the pieces, of which as many run side by side as
   /// there are threads.
   RemeshResult remeshed;
-  /// Where the points of the quads lie on the triangles of the source. A point whose triangle is none of the source's,
-  /// as where a handle was closed, has kInvalidIndex there and the place that it has on the joined surface.
-  std::vector<SourceLocation> pointSource; ///< #points of the quads
-  std::vector<SourceLocation> quadSource;  ///< #quads; the same of their centres
-  RunEstimate estimate;                    ///< made before the run
-  std::size_t pieces = 0;
-  std::size_t joinedTriangles = 0;
 };
 
 /// Where the points lie, and in what polygon the centre of quad q; a place that is missing is that of a point near it
 /// along edges. mesh: the quads that were made.
-std::vector<SourceLocation> sourcesOfPoints(const PiecesResult& made, const QuadMesh& mesh);
-Index sourceOfQuad(const PiecesResult& made, const QuadMesh& mesh,
+std::vector<SourceLocation> sourcesOfPoints(const MadeThinning& made, const QuadMesh& mesh);
+Index sourceOfQuad(const MadeThinning& made, const QuadMesh& mesh,
   const std::vector<SourceLocation>& sourcesOfPoints, std::size_t q);
 
 /// Tells of handles that were cut before the surface was thinned out: they come first.
 void tellClosedHandles(const std::vector<SmallDetail>& closed, RemeshResult& result);
 
-/// Whether it saves time and memory to cut this surface for these quads.
-bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options);
-
-/// Whether it saves time to thin out this surface, as a whole, before these quads are made.
-bool isWorthThinning(const TriangleSource& source, const RemeshOptions& options);
-
 /// Makes the quads of a surface that is thinned out first, in one piece (ThinnedSurface.h): stages are repair, order,
 /// connectivity, thin, those of remesh() from refine on, and carry. Of a surface that is shifted, scaled or mirrored it
-/// makes the same quads, as remesh() does; else as remeshInPieces(). input: of its arrays features, patches and sizes
-/// count; throws InvalidInput where it asks for guides, valences or curves.
+/// makes the same quads, as remesh() does; else as remeshInPieces(). input: all that is asked of it counts, but for
+/// guides (see Documentation/Design/Pieces.md), vertices that are held and parts of the boundary that are images of
+/// each other or straight: these throw InvalidInput. What is drawn is drawn on the surface itself, and the vertices of
+/// target valences stay.
 PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options);
 
 /// Makes the quads. options: as for remesh(), on the surface as it is: guides, valences, sizes and curves that an input

@@ -8,36 +8,28 @@
 #include "Pipeline/EnterFrame.h"
 #include "Pipeline/Run.h"
 #include "Pipeline/RunResult.h"
-#include "Prepare/Prepare.h"
+#include "Pipeline/SizedSurface.h"
 
 #include <utility>
+#include <vector>
 
 namespace quadrille
 {
 namespace
 {
 
-/// The surface in the frame, thinned out.
-ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, StageRecords& stages)
+/// The surface in the frame, thinned out. input: what is drawn is left of it.
+ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, SizedSurface& sized)
 {
-  PrepareOptions prepare;
-  prepare.featureAngle = options.featureAngle;
-  prepare.threads = options.threads;
-  prepare.progress = subProgress(options.progress, 0.0, 0.25, "Preparing: ");
-  const std::size_t polygons = input.polygonOffsets.empty() ? 0 : input.polygonOffsets.size() - 1;
-  PreparedSurface fine = prepareSurface(std::move(input), prepare);
-  input = {};
+  PreparedSurface fine =
+    prepareDrawn(input, options, subProgress(options.progress, 0.0, 0.25, "Preparing: "), sized);
   const std::size_t faces = fine.mesh.faceCount();
-  for (const auto& [name, seconds] : fine.seconds)
-  {
-    stages.add(name, seconds, polygons, faces);
-  }
   Stopwatch watch;
   PieceOptions piece = pieceOptionsOf(options, fine.area, fine.boundingBoxDiagonal);
   piece.threads = options.threads;
   piece.progress = subProgress(options.progress, 0.25, 0.6, "Thinning: ");
   ThinnedSurface thinned(std::move(fine), piece);
-  stages.add("thin", watch.lap(), faces, thinned.faceCount());
+  sized.stages.add("thin", watch.lap(), faces, thinned.faceCount());
   return thinned;
 }
 
@@ -46,7 +38,9 @@ void carryToInput(ThinnedSurface& thinned, const std::vector<Vector3>& userPoint
   const std::vector<Vector3>& points, const RemeshOptions& options, RemeshResult& made,
   PiecesResult& result)
 {
-  if (!made.status.ok())
+  result.polygonBeside = thinned.polygonsBeside();
+  thinned.putOnInput(made.failed);
+  if (!made.status.ok() || options.preview)
   {
     return;
   }
@@ -68,14 +62,15 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
   places.set(frame.centre, frame.unit, frame.sign);
   RemeshOptions options = optionsInFrame(given, frame);
   options.mergeCharts = false;
-  StageRecords stages;
-  ThinnedSurface thinned = thinOut(framed.input, options, stages);
+  SizedSurface sized;
+  ThinnedSurface thinned = thinOut(framed.input, options, sized);
   result.pieces = 1;
   result.joinedTriangles = thinned.faceCount();
   const std::vector<Vector3> userPoints = thinned.userPoints(frame, framed.points);
   options.progress = subProgress(given.progress, 0.6, 0.9);
   std::vector<SmallDetail> closed;
-  SizedSurface sized = sizePrepared(thinned.surface(options.threads, closed), stages, options);
+  PreparedSurface surface = thinned.surface(options.threads, closed);
+  sized = sizePrepared(std::move(surface), framed.input.drawn.valences, options, std::move(sized));
   remeshSized(sized, frame, options, nullptr, false, made);
   tellClosedHandles(closed, made);
   putOnUserSurface(sized, { frame, {}, userPoints }, options, false, made);
@@ -86,22 +81,16 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
   }
 }
 
-/// What needs the whole surface, see remeshThinned.
-void requireNothingPlaced(const SurfaceInput& input)
-{
-  refuseIf(!input.guideDirections.empty() || !input.targetValences.empty() ||
-      !input.drawn.empty() || !input.curves.empty() || !input.held.empty() ||
-      !input.seams.empty() || !input.straight.empty() || input.regularElsewhere ||
-      input.regularOnFeatures,
-    "guides, valences and curves are those of the whole surface: do not have it "
-    "thinned out.");
-}
-
 } // namespace
 
 PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options)
 {
-  requireNothingPlaced(input);
+  refuseIf(!input.guideDirections.empty() || !input.drawn.strokes.empty(),
+    "directions of guides need the freedom that all triangles give: do not have the surface "
+    "thinned out.");
+  refuseIf(!input.held.empty() || !input.seams.empty() || !input.straight.empty(),
+    "vertices that are held, and parts of the boundary that are straight or images of each other, "
+    "are those of the whole surface: do not have it thinned out.");
   PiecesResult made;
   made.remeshed = guardedRun(input, options, nullptr,
     [&](const RemeshOptions& asked, ResultStore*, PlaceScope& places, RemeshResult& remeshed)
@@ -109,7 +98,6 @@ PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options)
       EnteredInput entered = enterFrame(std::move(input), asked, nullptr);
       runThinned(entered.framed, asked, places, remeshed, made);
     });
-  made.estimate = made.remeshed.estimate;
   return made;
 }
 

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pieces/ThinnedSurface.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/Topology.h"
 #include "Pieces/CarriedPlaces.h"
 #include "Pieces/PlaceOnSource.h"
 
@@ -19,6 +21,10 @@ ThinnedSurface::ThinnedSurface(PreparedSurface fine, const PieceOptions& options
   thinning.targetEdgeLength = 2 * options.edgeLength; // phase 1 ends at a half of it
   thinning.isRough = true;
   thinning.isConnected = fine_.components == 1;
+  for (const ValenceRequest& request : fine_.valenceRequests)
+  {
+    thinning.keepVertices.push_back(request.vertex);
+  }
   thinning.threads = options.threads;
   thinning.progress = options.progress;
   Hierarchy made = Redecimation(fine_.mesh, fine_.hash, thinning).take();
@@ -36,6 +42,7 @@ PreparedSurface ThinnedSurface::surface(int threads, std::vector<SmallDetail>& c
   thinned.area = fine_.area;
   thinned.boundingBoxDiagonal = fine_.boundingBoxDiagonal;
   thinned.components = fine_.components;
+  thinned.setRequests(requests());
   thinned.hash = contentHash(thinned.mesh, threads);
   const Mesh& mesh = thinned.mesh;
   for (Index f = 0; f < mesh.faceCount(); ++f)
@@ -52,6 +59,50 @@ PreparedSurface ThinnedSurface::surface(int threads, std::vector<SmallDetail>& c
     closed = cutShortHandles(thinned, handles_, places, closedLoop_, quadEdge_, threads);
   }
   return thinned;
+}
+
+SurfaceRequests ThinnedSurface::requests() const
+{
+  SurfaceRequests asked = fine_.requests();
+  for (ValenceRequest& request : asked.valenceRequests)
+  {
+    const auto kept =
+      std::lower_bound(level_.fineVertex.begin(), level_.fineVertex.end(), request.vertex);
+    request.vertex = static_cast<Index>(kept - level_.fineVertex.begin());
+  }
+  return asked;
+}
+
+std::vector<Index> ThinnedSurface::polygonsBeside() const
+{
+  std::vector<Index> polygons(level_.fineFace.size());
+  std::transform(level_.fineFace.begin(), level_.fineFace.end(), polygons.begin(),
+    [this](Index f) { return fine_.sourcePolygon[f]; });
+  return polygons;
+}
+
+void ThinnedSurface::putOnInput(FailedParts& failed) const
+{
+  if (failed.polygons.empty())
+  {
+    return;
+  }
+  Index components = 0;
+  const std::vector<Index> componentOf = faceComponents(fine_.mesh, components);
+  std::vector<std::uint8_t> isFailed(components, 0);
+  for (const Index triangle : failed.polygons)
+  {
+    isFailed[componentOf[level_.fineFace[triangle]]] = 1;
+  }
+  failed.polygons.clear();
+  for (Index f = 0; f < componentOf.size(); ++f)
+  {
+    if (isFailed[componentOf[f]] != 0)
+    {
+      failed.polygons.push_back(fine_.sourcePolygon[f]);
+    }
+  }
+  sortUnique(failed.polygons);
 }
 
 std::vector<Vector3> ThinnedSurface::userPoints(

@@ -11,6 +11,7 @@
 #include "Mesh/Surface.h"
 #include "Pieces/HandlesOfPiece.h"
 #include "Pieces/SurfacePiece.h"
+#include "Pipeline/FailedParts.h"
 #include "Prepare/Frame.h"
 
 #include <vector>
@@ -21,16 +22,21 @@ namespace quadrille
 class ThinnedSurface
 {
 public:
-  /// Decimates until the edges exceed the edge length, without handles that are too short. fine: without guides,
-  /// valences and curves. options: the lengths are those of `fine`.
+  /// Decimates until the edges exceed the edge length, without handles that are too short; vertices of target valences
+  /// stay. fine: without guides. options: the lengths are those of `fine`.
   ThinnedSurface(PreparedSurface fine, const PieceOptions& options);
 
   /// The thinned surface as one by itself: its polygons are its own triangles, its input's points its own vertices. It
-  /// has what was found on the surface: area, diagonal, components, features, sizes, what repair did. Handles that are
+  /// has what was found on the surface: area, diagonal, components, features, sizes, what repair did; and what is asked
+  /// of it. Handles that are
   /// too short on the surface itself are cut and closed; on thinned triangles they come out longer. closed: gets them,
   /// with places on `fine`.
   PreparedSurface surface(int threads, std::vector<SmallDetail>& closed) const;
   std::size_t faceCount() const { return level_.fineFace.size(); }
+  /// Of each triangle a polygon of the input, on the same side of features.
+  std::vector<Index> polygonsBeside() const;
+  /// Polygons of components that have no quads become those of the input.
+  void putOnInput(FailedParts& failed) const;
 
   /// The user's positions of its vertices. points: of the user's input, see FramedInput.
   std::vector<Vector3> userPoints(const Frame& frame, const std::vector<Vector3>& points) const;
@@ -47,6 +53,8 @@ public:
     const std::vector<Vector3>& userPoints, int threads, const ProgressCallback& progress);
 
 private:
+  SurfaceRequests requests() const;
+
   PreparedSurface fine_;
   double closedLoop_, quadEdge_;
   std::vector<ShortHandle> handles_;

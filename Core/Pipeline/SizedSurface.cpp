@@ -69,13 +69,13 @@ ResultKey sizedKey(ResultKey prepared, ResultKey requests, const PreparedSurface
 }
 
 /// Repaired, in order and with features. What only placeHeld needs is left of the input.
-PreparedSurface prepareInput(
-  SurfaceInput& input, const RemeshOptions& options, StageRecords& stages)
+PreparedSurface prepareInput(SurfaceInput& input, const RemeshOptions& options,
+  const ProgressCallback& progress, StageRecords& stages)
 {
   PrepareOptions prepareOptions;
   prepareOptions.featureAngle = options.featureAngle;
   prepareOptions.threads = options.threads;
-  prepareOptions.progress = subProgress(options.progress, 0.0, 0.1, "Preparing: ");
+  prepareOptions.progress = progress;
   const std::size_t polygons = input.polygonOffsets.empty() ? 0 : input.polygonOffsets.size() - 1;
   SurfaceInput later;
   later.held = input.held;
@@ -286,6 +286,27 @@ SizedSurface finished(
   return sized;
 }
 
+/// Valences at places, on the sized surface.
+void addValences(const std::vector<ValencePlace>& valences, const RemeshOptions& options,
+  PreparedSurface& surface, SizedSurface& sized)
+{
+  sized.starsKey = sized.key;
+  sized.sharedVertices = surface.mesh.vertexCount();
+  if (!sized.status.ok())
+  {
+    return;
+  }
+  const AddedVertices added =
+    drawValences(surface, valences, sized.edgeLength, options.threads, sized.notices);
+  sized.key =
+    added == AddedVertices::None ? sized.key : KeyMaker(sized.key).add(surface.hash).key();
+  if (added == AddedVertices::OnFeatures)
+  {
+    sized.starsKey = sized.key;
+    sized.sharedVertices = surface.mesh.vertexCount();
+  }
+}
+
 /// The prepared surface that a run begins with, and where it is stored; stored: null where it was made.
 struct PreparedOfRun
 {
@@ -317,13 +338,24 @@ PreparedOfRun findOrPrepare(
     sized.reused = { "repair", "order", "connectivity" };
     return prepared;
   }
-  prepared.surface = prepareInput(input, options, sized.stages);
+  prepared.surface = prepareInput(
+    input, options, subProgress(options.progress, 0.0, 0.1, "Preparing: "), sized.stages);
   prepared.sizedArea = areaOverSizes(prepared.surface);
   return prepared;
 }
 
 /// Features and sizes that are drawn become those of the prepared surface. How fine that has to be follows from the
 /// quads.
+void draw(const SurfaceInput& input, double edgeLength, const RemeshOptions& options,
+  PreparedSurface& surface, SizedSurface& sized)
+{
+  const double start = secondsNow();
+  const std::size_t before = surface.mesh.faceCount();
+  drawOn(surface, input, edgeLength, options.threads, sized.notices);
+  sized.stages.add("draw", secondsNow() - start, before, surface.mesh.faceCount());
+}
+
+/// The same where the store may have it.
 void findOrDraw(const SurfaceInput& input, const RemeshOptions& options, ResultStore* store,
   PreparedOfRun& prepared, SizedSurface& sized)
 {
@@ -349,11 +381,8 @@ void findOrDraw(const SurfaceInput& input, const RemeshOptions& options, ResultS
     collectRequests(input, prepared.surface, options.threads);
     prepared.stored.reset();
   }
-  const double start = secondsNow();
-  const std::size_t before = prepared.surface.mesh.faceCount();
-  drawOn(prepared.surface, input, edgeLength, options.threads, sized.notices);
+  draw(input, edgeLength, options, prepared.surface, sized);
   prepared.sizedArea = areaOverSizes(prepared.surface);
-  sized.stages.add("draw", secondsNow() - start, before, prepared.surface.mesh.faceCount());
 }
 
 } // namespace
@@ -418,32 +447,30 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
       keepSized(std::move(stored), prepared.key, surface, options, *store, sized);
     }
   }
-  sized.starsKey = sized.key;
-  sized.sharedVertices = surface.mesh.vertexCount();
-  if (sized.status.ok())
-  {
-    const AddedVertices added =
-      drawValences(surface, input.drawn.valences, sized.edgeLength, options.threads, sized.notices);
-    sized.key =
-      added == AddedVertices::None ? sized.key : KeyMaker(sized.key).add(surface.hash).key();
-    if (added == AddedVertices::OnFeatures)
-    {
-      sized.starsKey = sized.key;
-      sized.sharedVertices = surface.mesh.vertexCount();
-    }
-  }
+  addValences(input.drawn.valences, options, surface, sized);
   input = {};
   return finished(std::move(surface), options, store, std::move(sized));
 }
 
-SizedSurface sizePrepared(
-  PreparedSurface surface, const StageRecords& stages, const RemeshOptions& options)
+PreparedSurface prepareDrawn(SurfaceInput& input, const RemeshOptions& options,
+  const ProgressCallback& progress, SizedSurface& sized)
 {
-  SizedSurface sized;
-  sized.stages = stages;
+  PreparedSurface surface = prepareInput(input, options, progress, sized.stages);
+  if (changesSurface(input.drawn))
+  {
+    draw(input, targetEdgeLength(options, areaOverSizes(surface), surface.boundingBoxDiagonal),
+      options, surface, sized);
+  }
+  return surface;
+}
+
+SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlace>& valences,
+  const RemeshOptions& options, SizedSurface sized)
+{
   setTarget(areaOverSizes(surface), surface.boundingBoxDiagonal, options, sized);
   sized.key = sizedKey(preparedKey(0, options), 0, surface, options, sized);
   sizePreparedSurface(surface, options, sized);
+  addValences(valences, options, surface, sized);
   return finished(std::move(surface), options, nullptr, std::move(sized));
 }
 

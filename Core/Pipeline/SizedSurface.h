@@ -63,9 +63,14 @@ bool isPrepared(const KnownInput& known, const RemeshOptions& options);
 SizedSurface sizeSurface(
   SurfaceInput& input, const RemeshOptions& options, const KnownInput& known = {});
 
-/// The same of a surface that is prepared, which stays nowhere else. stages: those that have led to it.
-SizedSurface sizePrepared(
-  PreparedSurface surface, const StageRecords& stages, const RemeshOptions& options);
+/// The steps of sizeSurface for a surface that becomes another between them and stays nowhere else. First: repaired,
+/// in order, with its features, and with those and the sizes that are drawn. What is drawn is left of the input. sized:
+/// gets stages and notices.
+PreparedSurface prepareDrawn(SurfaceInput& input, const RemeshOptions& options,
+  const ProgressCallback& progress, SizedSurface& sized);
+/// Then from the prepared surface on. sized: as the first step has left it. valences: drawn in the frame.
+SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlace>& valences,
+  const RemeshOptions& options, SizedSurface sized);
 
 /// Sizes that the shape of the surface asks for. Where a number of quads is asked for, the edge length is the one
 /// with which they make as many, and the lengths that the shape asks for stay what they are.

@@ -47,7 +47,7 @@ SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options
   }
 }
 
-ConstraintWord judgeSymmetry(const SymmetricResult& made)
+ConstraintWord judgeSymmetry(const MadeSymmetry& made)
 {
   ConstraintWord word;
   word.kind = made.rotation ? "rotation" : "symmetry";

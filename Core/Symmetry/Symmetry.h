@@ -55,12 +55,9 @@ struct MadeRotation
   int order = 2;
 };
 
-struct SymmetricResult
+/// The symmetry that quads have.
+struct MadeSymmetry
 {
-  /// Of the whole surface are the quads, the surface, the map, its turns, charts and certificate, and the number of
-  /// handles; of the half in front all else. `surface` behind the plane is the image of that in front, and `quads` have
-  /// their sources there; where they lie on the input is in pointSources and quadPolygons.
-  RemeshResult remeshed;
   MirrorPlane plane;                    ///< normal: unit; the half in front of it was remeshed
   std::optional<MadeRotation> rotation; ///< in place of the plane
   ImageDeviation deviation; ///< of the image, or of that turned by one step, in units of the input
@@ -78,6 +75,14 @@ struct SymmetricResult
   bool isAlike = true;
 };
 
+struct SymmetricResult : MadeSymmetry
+{
+  /// Of the whole surface are the quads, the surface, the map, its turns, charts and certificate, and the number of
+  /// handles; of the half in front all else. `surface` behind the plane is the image of that in front, and `quads` have
+  /// their sources there; where they lie on the input is in pointSources and quadPolygons.
+  RemeshResult remeshed;
+};
+
 /// As remesh(), which see; the target number of quads is that of the whole. Guides, valences and sizes of one side are
 /// asked of both, see askOfPart; features are those of the half in front, or of the wedge. Of a rotation
 /// the mapped surface is n wedges side by side, not joined at the cuts. With a store plane, axis and surface are not
@@ -88,6 +93,6 @@ SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options
   const SymmetryOptions& symmetry, ResultStore* store = nullptr);
 
 /// Its row of the constraint table.
-ConstraintWord judgeSymmetry(const SymmetricResult& made);
+ConstraintWord judgeSymmetry(const MadeSymmetry& made);
 
 } // namespace quadrille

@@ -47,7 +47,7 @@ struct ConstraintInputs
 /// All goes to surface.input.drawn, see ConstraintPlacement: every point goes to the nearest place on the surface,
 /// wherever its vertices are. Connections and cycles stay as they are, in surface.input.curves; also pairs of points of
 /// the surface that share a value of its point array ConnectId.
-/// Moves: as they are, see Filters/Constraints/Moves.h.
+/// Moves: as they are, see Session/Moves.h.
 /// Throws InvalidInput, with the place, for values that cannot be asked for and for a curve that cannot be followed.
 PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintInputs& inputs);
 

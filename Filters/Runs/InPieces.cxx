@@ -134,19 +134,4 @@ ConvertedSurface polygonsOf(vtkPolyData* surface)
   return converted;
 }
 
-void addPieceSources(const PiecesResult& made, const QuadMesh& mesh,
-  const ConvertedSurface& converted, vtkPolyData* surface, QuadSource& source)
-{
-  const std::vector<SourceLocation> ofPoints = sourcesOfPoints(made, mesh);
-  for (const SourceLocation& at : ofPoints)
-  {
-    source.pointOrigins.push_back(pointOrigin(at, converted, surface));
-    source.pointCells.push_back(converted.cell(at.polygon));
-  }
-  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
-  {
-    source.quadCells.push_back(converted.cell(sourceOfQuad(made, mesh, ofPoints, q)));
-  }
-}
-
 } // namespace quadrille

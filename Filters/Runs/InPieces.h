@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Surfaces that are cut into pieces in one process (Pieces/RemeshInPieces.h): the arrays of VTK as they are, and the
-/// sources of the quads.
+/// Surfaces that are cut into pieces in one process (Pieces/RemeshInPieces.h): the arrays of VTK as they are.
 #pragma once
 
-#include "Convert/Quads.h"
+#include "Convert/PolyData.h"
 #include "Pieces/RemeshInPieces.h"
 
 #include <memory>
@@ -24,10 +23,5 @@ std::string constrainingArray(vtkPolyData* surface, const std::string& patchArra
 
 /// What convertSurface() says beside the polygons themselves.
 ConvertedSurface polygonsOf(vtkPolyData* surface);
-
-/// Sets where the points and centres of the quads come from. A point without a place on the surface has that of a point
-/// near it along edges.
-void addPieceSources(const PiecesResult& made, const QuadMesh& mesh,
-  const ConvertedSurface& converted, vtkPolyData* surface, QuadSource& source);
 
 } // namespace quadrille

@@ -5,9 +5,7 @@
 
 #include "Constraints/Constraints.h"
 #include "Convert/PolyData.h"
-#include "Pieces/RemeshInPieces.h"
-#include "Pipeline/Pipeline.h"
-#include "Symmetry/Symmetry.h"
+#include "Ways/Ways.h"
 
 namespace quadrille
 {
@@ -17,9 +15,7 @@ struct RunOfBlock
 {
   const ConvertedSurface& converted;
   const AskedConstraints& asked;
-  const RemeshResult& result;
-  const SymmetricResult* symmetric; ///< null where nothing symmetric was asked for
-  const PiecesResult* pieces;       ///< null where the surface was not cut
+  const QuadsMade& made;
 };
 
 } // namespace quadrille

@@ -4,6 +4,7 @@
 
 #include "Common/NewArray.h"
 #include "Common/Report.h"
+#include "Convert/PolyData.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -42,9 +43,8 @@ void addTuple(vtkPolyData* data, const char* name, std::initializer_list<double>
 
 /// Edges of which each point is its own image; of quads that are their own image the line between the middles of their
 /// two edges across the plane.
-std::vector<std::array<Vector3, 2>> linesInPlane(const SymmetricResult& made)
+std::vector<std::array<Vector3, 2>> linesInPlane(const QuadMesh& quads, const MadeSymmetry& made)
 {
-  const QuadMesh& quads = made.remeshed.quads;
   const auto image = [&made](Index p) { return made.mirrorPoint[p]; };
   std::set<std::pair<Index, Index>> edges;
   std::vector<std::array<Vector3, 2>> lines;
@@ -70,21 +70,7 @@ std::vector<std::array<Vector3, 2>> linesInPlane(const SymmetricResult& made)
 
 } // namespace
 
-void addMirrorSources(const SymmetricResult& made, const ConvertedSurface& converted,
-  vtkPolyData* input, QuadSource& source)
-{
-  for (const SourceLocation& at : made.pointSources)
-  {
-    source.pointOrigins.push_back(pointOrigin(at, converted, input));
-    source.pointCells.push_back(converted.cell(at.polygon));
-  }
-  for (const Index polygon : made.quadPolygons)
-  {
-    source.quadCells.push_back(converted.cell(polygon));
-  }
-}
-
-void addSymmetry(vtkPolyData* quads, const SymmetricResult& made)
+void addSymmetry(vtkPolyData* quads, const MadeSymmetry& made)
 {
   const std::vector<Index>& imageOf = made.rotation ? made.rotatedPoint : made.mirrorPoint;
   auto image = newArray<vtkIdTypeArray>(
@@ -114,13 +100,14 @@ void addSymmetry(vtkPolyData* quads, const SymmetricResult& made)
   addNumber(quads, "SymmetryFarthestMoved", made.farthestMoved / made.diagonal);
 }
 
-void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool isMet)
+void addMirrorLines(
+  vtkPolyData* constraints, const QuadMesh& quads, const MadeSymmetry& made, bool isMet)
 {
   if (made.rotation)
   {
     return;
   }
-  const std::vector<std::array<Vector3, 2>> lines = linesInPlane(made);
+  const std::vector<std::array<Vector3, 2>> lines = linesInPlane(quads, made);
   const auto appendZero = [](vtkDataSetAttributes* attributes)
   {
     for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "Constraints/ConstraintTable.h"
-#include "Convert/Quads.h"
 #include "Symmetry/Symmetry.h"
 
 class vtkPolyData;
@@ -12,16 +11,13 @@ class vtkPolyData;
 namespace quadrille
 {
 
-/// Points and quads come from where they lie on the input, on both sides of the plane, or in all wedges.
-void addMirrorSources(const SymmetricResult& made, const ConvertedSurface& converted,
-  vtkPolyData* input, QuadSource& source);
-
 /// MirrorPoint or RotatedPoint on points; field data: SymmetryOrigin, SymmetryNormal or SymmetryDirection and
 /// SymmetryOrder, SymmetryDeviation, SymmetryMovedPoints, SymmetryFarthestMoved, see vtkQuadRemesh.
-void addSymmetry(vtkPolyData* quads, const SymmetricResult& made);
+void addSymmetry(vtkPolyData* quads, const MadeSymmetry& made);
 
 /// The edges of the quads in the mirror plane, or the mid-lines of those across it, as lines of the output Constraints
 /// (see writeConstraints): Constraint 10, SourceId -1, all else 0. Of a rotation none.
-void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool isMet);
+void addMirrorLines(
+  vtkPolyData* constraints, const QuadMesh& quads, const MadeSymmetry& made, bool isMet);
 
 } // namespace quadrille

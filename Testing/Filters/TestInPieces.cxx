@@ -151,7 +151,6 @@ TEST(InPieces, SaysWhatNeedsTheWholeSurface)
   EXPECT_TRUE(
     has(reason([](vtkQuadRemesh* filter) { filter->SetSymmetry(vtkQuadRemesh::SYMMETRY_FOUND); }),
       "symmetric quads"));
-  EXPECT_TRUE(has(reason([](vtkQuadRemesh* filter) { filter->PreviewOn(); }), "preview"));
   EXPECT_TRUE(has(reason([](vtkQuadRemesh* filter)
                     { filter->SetCellDataFrom(vtkQuadRemesh::CELL_DATA_FROM_AREA); }),
     "by area"));

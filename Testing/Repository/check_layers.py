@@ -38,7 +38,8 @@ MAY_INCLUDE = {
     "Assembly": ["Pipeline"],
     "Pieces": ["Pipeline"],
     "Session": ["Symmetry"],
-    "Api": ["Pipeline"],  # the library for C++ programs
+    "Ways": ["Pieces", "Session"],  # which of them a run takes
+    "Api": ["Ways"],  # the library for C++ programs
     "Repair": ["Prepare"],  # with CGAL, and nothing of Core needs it: it can be left out
 }
 # The folders of Filters in the same way; headers of Core and of VTK they may all include.

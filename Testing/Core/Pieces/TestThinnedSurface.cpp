@@ -3,15 +3,18 @@
 #include "Pieces/ThinnedSurface.h"
 
 #include "Base/Error.h"
+#include "Evaluation/ConstraintWords.h"
 #include "MeshInput.h"
 #include "Pieces/RemeshInPieces.h"
 #include "PiecesChecks.h"
+#include "Prepare/ConstraintPlacement.h"
 #include "TestHandleMeshes.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -156,11 +159,190 @@ TEST(ThinnedSurface, SourcesAreThoseOfTheInput)
   expectPlacesOfSources(made, input);
 }
 
-TEST(ThinnedSurface, RefusesWhatIsPlacedOnTheSurface)
+/// A torus round z on which something is asked for, by arrays and drawn.
+struct AskedTorus
 {
-  SurfaceInput input = toInput(sphere(4));
-  input.targetValences.assign(input.points.size(), 0);
-  EXPECT_THROW(remeshThinned(input, askForQuads(100)), InvalidInput);
+  SurfaceInput input = toInput(torus(160, 80, 2, 0.8));
+  AskedConstraints asked;
+
+  /// The point at these angles.
+  static Vector3 at(double around, double across)
+  {
+    const double r = 2 + 0.8 * std::cos(across);
+    return { r * std::cos(around), r * std::sin(around), 0.8 * std::sin(across) };
+  }
+
+  std::vector<Vector3> ring(double across, double from, double to) const
+  {
+    std::vector<Vector3> points;
+    for (double around = from; around < to + 1e-9; around += (to - from) / 20)
+    {
+      points.push_back(at(around, across));
+    }
+    return points;
+  }
+
+  template <class Draw>
+  void draw(const Draw& add)
+  {
+    const SurfacePlaces places(input);
+    const SurfacePaths paths(input);
+    ConstraintPlacement placement(input, places, paths);
+    add(placement);
+    placement.addTo(input);
+    asked.placed = placement.result().placed;
+  }
+
+  /// Whether each of the constraints is met.
+  std::vector<bool> met(const RemeshResult& made)
+  {
+    asked.curves = made.curves;
+    std::vector<bool> met;
+    for (const ConstraintWord& word : judgeConstraints(asked, made.quads, {}))
+    {
+      met.push_back(word.isMet);
+      EXPECT_TRUE(word.isMet) << word.kind << " " << word.deviation << " " << word.reason;
+    }
+    return met;
+  }
+};
+
+/// Every constraint gets the word that it gets on the whole surface, and points lie on the input.
+void expectSameWords(AskedTorus torus, std::size_t quads, std::size_t words)
+{
+  const RemeshResult whole = remesh(torus.input, askForQuads(quads));
+  const PiecesResult made = remeshThinned(torus.input, askForQuads(quads));
+  ASSERT_TRUE(whole.status.ok()) << whole.status.message;
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  EXPECT_LT(made.joinedTriangles, torus.input.polygonOffsets.size() / 2);
+  const std::vector<bool> met = torus.met(made.remeshed);
+  EXPECT_EQ(met.size(), words);
+  EXPECT_EQ(met, torus.met(whole));
+  expectPlacesOfSources(made, torus.input);
+}
+
+TEST(ThinnedSurface, DrawnFeaturesAreFollowed)
+{
+  AskedTorus torus;
+  torus.draw(
+    [&](ConstraintPlacement& placement)
+    {
+      placement.addFeature({ 0, torus.ring(0.7, 0, 1.5) });
+      placement.addSize(AskedTorus::at(5, 0), 0.5, 0.7);
+    });
+  expectSameWords(torus, 300, 1);
+}
+
+TEST(ThinnedSurface, ValencesStay)
+{
+  AskedTorus torus;
+  torus.input.targetValences.assign(torus.input.points.size(), 0);
+  torus.input.targetValences[1234] = 3;
+  torus.input.targetValences[7000] = 4;
+  torus.asked.arrays = arrayConstraints(torus.input);
+  torus.draw([&](ConstraintPlacement& placement)
+    { placement.addValence(0, AskedTorus::at(2.713, 1.277), 5); });
+  expectSameWords(torus, 300, 3);
+}
+
+TEST(ThinnedSurface, ConnectionsJoinTheirEnds)
+{
+  AskedTorus torus;
+  torus.draw(
+    [&](ConstraintPlacement& placement)
+    {
+      placement.addValence(0, AskedTorus::at(0.5, 1), 3);
+      placement.addValence(1, AskedTorus::at(1.6, 1), 5);
+      placement.addCurve(2, CurveKind::Connection, torus.ring(1, 0.5, 1.6));
+    });
+  expectSameWords(torus, 300, 3);
+}
+
+TEST(ThinnedSurface, CyclesAreClosed)
+{
+  AskedTorus torus;
+  torus.draw(
+    [&](ConstraintPlacement& placement)
+    {
+      std::vector<Vector3> ring = torus.ring(1, 0, 6.1);
+      placement.addCurve(0, CurveKind::Cycle, std::move(ring));
+    });
+  expectSameWords(torus, 300, 1);
+}
+
+/// A preview makes as many quads as the run, at its intermediate level.
+TEST(ThinnedSurface, APreviewIsThatOfTheRun)
+{
+  const SurfaceInput input = toInput(torus(160, 80, 2, 1));
+  RemeshOptions options = askForQuads(400);
+  const PiecesResult made = remeshThinned(input, options);
+  options.preview = true;
+  const PiecesResult preview = remeshThinned(input, options);
+  ASSERT_TRUE(preview.remeshed.status.ok()) << preview.remeshed.status.message;
+  EXPECT_EQ(preview.remeshed.quads.quads.size(), made.remeshed.quads.quads.size());
+  EXPECT_TRUE(preview.pointSource.empty());
+}
+
+/// Triangles of the thinned surface know a polygon on their side of each border.
+TEST(ThinnedSurface, PolygonsBesideKeepToTheirPatch)
+{
+  SurfaceInput input = toInput(unitCube(40));
+  const std::size_t polygons = input.polygonOffsets.size() - 1;
+  for (std::size_t f = 0; f < polygons; ++f)
+  {
+    const Vector3 middle =
+      (input.points[input.polygonPoints[3 * f]] + input.points[input.polygonPoints[3 * f + 1]] +
+        input.points[input.polygonPoints[3 * f + 2]]) /
+      3;
+    input.patchIds.push_back(middle.x() > 0.5 ? 7 : 3);
+  }
+  RemeshOptions options = askForQuads(300);
+  options.featureAngle.reset();
+  const PiecesResult made = remeshThinned(input, options);
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  ASSERT_EQ(made.polygonBeside.size(), made.joinedTriangles);
+  const PreparedSurface& surface = made.remeshed.surface;
+  for (Index f = 0; f < surface.mesh.faceCount(); ++f)
+  {
+    Vector3 middle = Vector3::Zero();
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      middle += surface.mesh.position[surface.mesh.origin[h]] / 3;
+    }
+    EXPECT_EQ(
+      input.patchIds[made.polygonBeside[surface.sourcePolygon[f]]], middle.x() > 0.5 ? 7 : 3);
+  }
+}
+
+/// A component without a map is left out, and told by all its polygons of the input.
+TEST(ThinnedSurface, WhatIsLeftOutIsToldByPolygonsOfTheInput)
+{
+  SurfaceInput input = toInput(disjointUnion(sphere(5), sphere(3), Vector3(3, 0, 0)));
+  const std::size_t fine = toInput(sphere(5)).polygonOffsets.size() - 1;
+  input.featureEdges.assign(input.polygonOffsets.size() - 1, 0);
+  std::fill(
+    input.featureEdges.begin() + static_cast<std::ptrdiff_t>(fine), input.featureEdges.end(), 7);
+  RemeshOptions options = askForQuads(40);
+  EXPECT_FALSE(remeshThinned(input, options).remeshed.status.ok());
+  options.leavesOutFailed = true;
+  const PiecesResult made = remeshThinned(input, options);
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  EXPECT_LT(made.joinedTriangles, fine);
+  const FailedParts& failed = made.remeshed.failed;
+  EXPECT_EQ(failed.components, 1U);
+  ASSERT_EQ(failed.polygons.size(), input.polygonOffsets.size() - 1 - fine);
+  EXPECT_EQ(failed.polygons.front(), fine);
+  expectPlacesOfSources(made, input);
+}
+
+TEST(ThinnedSurface, RefusesWhatNeedsTheWholeSurface)
+{
+  SurfaceInput held = toInput(sphere(4));
+  held.held.emplace_back();
+  EXPECT_THROW(remeshThinned(held, askForQuads(100)), InvalidInput);
+  SurfaceInput guided = toInput(sphere(4));
+  guided.guideDirections.assign(guided.polygonOffsets.size() - 1, Vector3::UnitX());
+  EXPECT_THROW(remeshThinned(guided, askForQuads(100)), InvalidInput);
   SurfaceInput broken = toInput(sphere(4));
   broken.polygonPoints.edit()[300] = 123456;
   EXPECT_THROW(remeshThinned(broken, askForQuads(100)), InvalidInput);

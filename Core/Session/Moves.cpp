@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/Moves.h"
+#include "Session/Moves.h"
 
 #include "Base/Error.h"
 #include "Session/ComposedInput.h"
