@@ -18,6 +18,9 @@ namespace
 /// Rings of quads round a bad one that changes are tried in, and whose points may move.
 constexpr int kRingsOfChanges = 1, kRingsOfPatch = 2;
 
+/// Quads with a corner that is straight but for this count as inverted: rounding makes them so.
+constexpr double kStraight = 1e-4;
+
 using Quad = std::array<Index, 4>;
 
 Mesh meshOf(const Mesh& mesh, const std::vector<Index>& triangles)
@@ -53,7 +56,7 @@ QuadScore scoreOf(const FaceQuads& mesh)
     {
       const double shape =
         std::min(shapeOfQuad(mesh, quad), scaledJacobian(cornersOf(mesh.points, quad)));
-      score.inverted += shape > 0 ? 0 : 1;
+      score.inverted += shape > kStraight ? 0 : 1;
       score.bad += shape < kLeastShape ? 1 : 0;
       score.worst = std::min(score.worst, shape);
     }
