@@ -378,10 +378,12 @@ TEST(StrokeGuides, GuideWhatTheyCrossAndWhatIsNear)
 {
   const Mesh mesh = gridPlane(20, 20);
   const Vector3 a(3.2, 3.1, 0), b(16.3, 11.4, 0);
+  constexpr double kEdgeLength = 1.8;
   for (const double radius : { 0.0, 2.0 })
   {
     std::vector<bool> guided(mesh.faceCount(), false);
-    for (const StrokeFace& face : facesOfStrokes(mesh, { { { a, b }, 1, radius, 0 } }, 1))
+    for (const StrokeFace& face :
+      facesOfStrokes(mesh, { { { a, b }, 1, radius, 0 } }, kEdgeLength, 1))
     {
       guided[face.face] = true;
       EXPECT_GT(std::abs(face.direction.dot((b - a).normalized())), 1 - 1e-9);
@@ -393,9 +395,10 @@ TEST(StrokeGuides, GuideWhatTheyCrossAndWhatIsNear)
           mesh.position[mesh.origin[3 * f + 2]]) /
         3;
       const double distance = distanceToSegment(centre, a, b);
-      EXPECT_TRUE(guided[f] || distance > std::max(radius, 1e-9) - 1e-9);
+      const double reach = radius + 0.5 * kEdgeLength;
+      EXPECT_TRUE(guided[f] || distance > reach - 1e-9);
       EXPECT_TRUE(!guided[f] ||
-        distance <= std::max(radius, 0.75)); // a triangle reaches so far from its centre
+        distance <= std::max(reach, 0.75)); // a triangle reaches so far from its centre
     }
   }
 }
@@ -410,7 +413,7 @@ TEST(StrokeGuides, TheLaterOneCountsUnlessOrdersSayOtherwise)
   {
     StrokeRequest first = along;
     first.order = isLater ? 0 : 1;
-    for (const StrokeFace& face : facesOfStrokes(mesh, { first, across }, 1))
+    for (const StrokeFace& face : facesOfStrokes(mesh, { first, across }, 1, 1))
     {
       if (face.face == middle.face)
       {
