@@ -162,24 +162,15 @@ private:
   std::size_t at_ = 0; ///< of the constraint
 };
 
-/// Where a valence is looked for: of a vertex that an operation has made regular where the quads had it, as smoothing had
-/// moved it off its place of the map, and another one may be nearer to that.
+/// Where a valence is looked for: of a vertex that an operation has made regular at the point that was given for it, as
+/// smoothing moves vertices off their places of the map, and another one may be nearer to that.
 Vector3 placeInQuads(const IrregularEdit& edit, const Vector3& place, int asked)
 {
-  const auto made = std::find_if(edit.changes.begin(), edit.changes.end(),
-    [&](const IrregularEdit::Change& change) { return change.place == place; });
-  if (asked != kRegularValence || made == edit.changes.end())
-  {
-    return place;
-  }
-  const Vector3* nearest = &place;
-  for (const IrregularVertex& vertex : edit.shown)
-  {
-    const bool isNearer =
-      nearest == &place || (vertex.place - place).norm() < (*nearest - place).norm();
-    nearest = vertex.valence == made->before && isNearer ? &vertex.place : nearest;
-  }
-  return *nearest;
+  return asked != kRegularValence
+    ? place
+    : *std::min_element(edit.points.begin(), edit.points.end(),
+        [&](const Vector3& a, const Vector3& b)
+        { return (a - place).squaredNorm() < (b - place).squaredNorm(); });
 }
 
 /// The vertices that it changed last have their valences in the quads; and of the last operation: all others are

@@ -355,9 +355,19 @@ TEST(InsertPlaces, LargerSizesHoldWithinTheirRadiusAndDecreaseBeyond)
     between += asked > 1 && asked < 1.6F ? 1 : 0;
   }
   EXPECT_GE(between, 4U);
-  const SizingReport limited = limitSizeGrowth(surface.mesh, kEdgeLength);
-  EXPECT_LT(limited.most, 1.6); // about the smaller one alone
-  EXPECT_LT((surface.mesh.position[limited.vertex] - smaller.place).norm(), 0.6);
+  // Both pass to those around as gradually as they have to.
+  EXPECT_LT(limitSizeGrowth(surface.mesh, kEdgeLength).most, 1 + 1e-5);
+}
+
+TEST(InsertPlaces, ASizeThatALaterOneCoversDoesNotPassOn)
+{
+  PreparedSurface surface = prepared(unitCube(8));
+  const Vector3 place(0.5, 0.5, 1);
+  insertSizes(surface, { { place, 0.2, 0.4, 1 }, { place, 0.3, 1, 2 } }, {}, { 0.05, 1 });
+  for (const float size : surface.mesh.sizing)
+  {
+    EXPECT_EQ(size, 1);
+  }
 }
 
 TEST(InsertPlaces, TheSizeOfTheHighestOrderCounts)
