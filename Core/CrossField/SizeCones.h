@@ -18,8 +18,8 @@ namespace quadrille
 
 struct SizeConeOptions
 {
-  /// Sizes are asked for at places and are 1 elsewhere. An irregular vertex is worth it for a few quads there, not for a
-  /// share of the surface, and turns move between vertices of other sizes alone.
+  /// Sizes are asked for at places and are 1 elsewhere. An irregular vertex is worth it for a few quads there, not for
+  /// a share of the surface, and turns move between vertices of other sizes alone.
   bool atPlaces = false;
   double quads = 1; ///< of the whole surface, where sizes are asked for at places
 };
@@ -30,8 +30,7 @@ double sizeError(const Mesh& mesh, const FieldTopology& topology, const std::vec
 
 /// Target valences (#V, 0: free) with which the error becomes smaller: quarter turns move between inner vertices as
 /// long as each further irregular vertex is worth it. turns: per fan, of a field. asked: empty or #V, targets that
-/// stay. Empty when nothing would change. A direct solve for each of at most some hundred
-/// vertices.
+/// stay. Empty when nothing would change. A direct solve for each of at most some hundred vertices.
 std::vector<int> valencesForSizes(const Mesh& mesh, const FieldTopology& topology,
   const std::vector<int>& turns, const std::vector<int>& asked,
   const SizeConeOptions& options = {});

@@ -442,8 +442,8 @@ std::vector<SizeRequest> sizesThatCount(const std::vector<SizeRequest>& sizes,
   return counting;
 }
 
-/// The size of a vertex outside of all radii where nothing else is asked for. Beyond a radius sizes pass to those around,
-/// larger ones and smaller ones alike; where a larger one and a smaller one pass it is the smaller one.
+/// The size of a vertex outside of all radii where nothing else is asked for. Beyond a radius sizes pass to those
+/// around, larger ones and smaller ones alike; where a larger one and a smaller one pass it is the smaller one.
 double sizeBeyond(const std::vector<SizeRequest>& sizes, const Vector3& p, double s)
 {
   double larger = 1, most = std::numeric_limits<double>::infinity();
