@@ -128,7 +128,7 @@ std::map<Index, Vector3> directionsOf(
       {
         continue;
       }
-      const double reach = radius + 0.5 * edgeLength * sizeAt(mesh, mesh.origin[3 * other]);
+      const double reach = radius + 0.25 * edgeLength * sizeAt(mesh, mesh.origin[3 * other]);
       const Vector3 direction = nearest.direction(mesh.middleOfFace(other), reach);
       if (!direction.isZero(0))
       {

@@ -388,7 +388,7 @@ TEST(StrokeGuides, GuideWhatTheyCrossAndWhatIsNear)
 {
   const Mesh mesh = gridPlane(20, 20);
   const Vector3 a(3.2, 3.1, 0), b(16.3, 11.4, 0);
-  constexpr double kEdgeLength = 1.8;
+  constexpr double kEdgeLength = 3.6;
   for (const double radius : { 0.0, 2.0 })
   {
     std::vector<bool> guided(mesh.faceCount(), false);
@@ -405,7 +405,7 @@ TEST(StrokeGuides, GuideWhatTheyCrossAndWhatIsNear)
           mesh.position[mesh.origin[3 * f + 2]]) /
         3;
       const double distance = distanceToSegment(centre, a, b);
-      const double reach = radius + 0.5 * kEdgeLength;
+      const double reach = radius + 0.25 * kEdgeLength;
       EXPECT_TRUE(guided[f] || distance > reach - 1e-9);
       EXPECT_TRUE(!guided[f] ||
         distance <= std::max(reach, 0.75)); // a triangle reaches so far from its centre
