@@ -233,9 +233,8 @@ void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
   const FieldConstraints& constraints, TurnRepairInput input, const CrossFieldOptions& options,
   Solution& solution)
 {
-  const std::vector<int> targets =
-    valencesForSizes(mesh, topology, solution.turns, options.targetValences,
-      options.localSizes ? worthOfVertexAt(quadsOf(topology, options)) : kWorthOfVertex);
+  const std::vector<int> targets = valencesForSizes(mesh, topology, solution.turns,
+    options.targetValences, { options.localSizes, quadsOf(topology, options) });
   if (targets.empty())
   {
     return;

@@ -16,14 +16,13 @@
 namespace quadrille
 {
 
-/// What an irregular vertex more has to take off the mean square of the error: as much as 20 % too large quads on a
-/// fortieth of the surface.
-constexpr double kWorthOfVertex = 1e-3;
-/// Where sizes are asked for at places: as much as a factor of 1.25, from which on they count as not met, on so many
-/// quads.
-constexpr double kQuadsOfVertex = 5;
-/// quads: of the whole surface.
-double worthOfVertexAt(double quads);
+struct SizeConeOptions
+{
+  /// Sizes are asked for at places and are 1 elsewhere. An irregular vertex is worth it for a few quads there, not for
+  /// a share of the surface, and turns move between vertices of other sizes alone.
+  bool atPlaces = false;
+  double quads = 1; ///< of the whole surface, where sizes are asked for at places
+};
 
 /// The root mean square over the surface of the logarithm of expected over wanted size, for the turns of a field (per
 /// fan).
@@ -31,9 +30,9 @@ double sizeError(const Mesh& mesh, const FieldTopology& topology, const std::vec
 
 /// Target valences (#V, 0: free) with which the error becomes smaller: quarter turns move between inner vertices as
 /// long as each further irregular vertex is worth it. turns: per fan, of a field. asked: empty or #V, targets that
-/// stay. worth: see kWorthOfVertex. Empty when nothing would change. A direct solve for each of at most some hundred
-/// vertices.
+/// stay. Empty when nothing would change. A direct solve for each of at most some hundred vertices.
 std::vector<int> valencesForSizes(const Mesh& mesh, const FieldTopology& topology,
-  const std::vector<int>& turns, const std::vector<int>& asked, double worth = kWorthOfVertex);
+  const std::vector<int>& turns, const std::vector<int>& asked,
+  const SizeConeOptions& options = {});
 
 } // namespace quadrille

@@ -490,8 +490,8 @@ ConstraintMeasure ConstraintMeasures::size(
 
 bool ConstraintMeasures::isUnder(const NearestSegments& stroke, double radius, const Vector3& place)
 {
-  // It counts in the faces below it, which are smaller than half a quad.
-  return stroke.at(place).distance <= std::max(radius, 0.5 * edgeLengthAt(place));
+  // It guides what is within a quarter of a quad of its radius, see facesOfStrokes.
+  return stroke.at(place).distance <= radius + 0.25 * edgeLengthAt(place);
 }
 
 double ConstraintMeasures::shareUnder(

@@ -14,7 +14,7 @@
 namespace quadrille
 {
 
-/// Edge lengths of the quad there by which a connection may end beside the end of its line.
+/// Edge lengths of the quads there by which a connection may end beside the end of its line.
 constexpr double kMetEnds = 1;
 /// Mean edge lengths by which chain and line may differ: the chain is straight in the map, the line need not be. The
 /// table tells by how much they do.

@@ -82,8 +82,27 @@ std::optional<Index> ReachedValences::nearestOf(int valence, const Vector3& p) c
 }
 
 //------------------------------------------------------------------------------
-NearestQuads::NearestQuads(const QuadMesh& mesh) : mesh_(mesh)
+NearestQuads::NearestQuads(const QuadMesh& mesh)
+  : mesh_(mesh), edgeLengthRound_(mesh.points.size(), 0)
 {
+  std::vector<int> quadsRound(mesh.points.size(), 0);
+  for (const std::array<Index, 4>& quad : mesh.quads)
+  {
+    double length = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      length += 0.25 * (mesh.points[quad[(i + 1) % 4]] - mesh.points[quad[i]]).norm();
+    }
+    for (const Index p : quad)
+    {
+      edgeLengthRound_[p] += length;
+      ++quadsRound[p];
+    }
+  }
+  for (std::size_t p = 0; p < quadsRound.size(); ++p)
+  {
+    edgeLengthRound_[p] /= std::max(quadsRound[p], 1);
+  }
   std::vector<BoxTree::Box> boxes(2 * mesh.quads.size());
   for (Index i = 0; i < boxes.size(); ++i)
   {
@@ -128,10 +147,9 @@ std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
   const double v = isSecond ? weights[1] + weights[2] : weights[2];
   const Vector3 alongU = (1 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);
   const Vector3 alongV = (1 - u) * (corners[3] - corners[0]) + u * (corners[2] - corners[1]);
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    place.edgeLength += 0.25 * (corners[(i + 1) % 4] - corners[i]).norm();
-  }
+  const auto squaredTo = [&](Index i) { return (mesh_.points[i] - p).squaredNorm(); };
+  place.edgeLength = edgeLengthRound_[*std::min_element(
+    quad.begin(), quad.end(), [&](Index a, Index b) { return squaredTo(a) < squaredTo(b); })];
   place.along = { Vector3(alongU.stableNormalized()), Vector3(alongV.stableNormalized()) };
   return place;
 }

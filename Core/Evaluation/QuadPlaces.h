@@ -49,7 +49,9 @@ public:
   {
     Index quad = kInvalidIndex;
     Vector3 point = Vector3::Zero();
-    double edgeLength = 0; ///< the mean of its four edges
+    /// Of the quads at that of its corners which is nearest to the place, the mean of their edges: where a place is a
+    /// vertex of the quads, or on an edge, it does not depend on which of the quads there is taken for the nearest.
+    double edgeLength = 0;
     /// Unit tangents of its two families of edges, blended from opposite edges.
     std::array<Vector3, 2> along;
   };
@@ -61,7 +63,8 @@ private:
   std::array<Vector3, 3> triangle(Index i) const;
 
   const QuadMesh& mesh_;
-  BoxTree tree_; ///< of two triangles a quad
+  BoxTree tree_;                        ///< of two triangles a quad
+  std::vector<double> edgeLengthRound_; ///< #points, see Place
 };
 
 /// The edge of the quads nearest to a place.

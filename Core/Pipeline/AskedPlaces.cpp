@@ -65,10 +65,10 @@ AskedPlaces askedPlaces(const PreparedSurface& surface)
   return asked;
 }
 
-void ask(const AskedPlaces& asked, PreparedSurface& surface, int threads)
+void ask(const AskedPlaces& asked, PreparedSurface& surface, double edgeLength, int threads)
 {
   surface.setRequests(asked.requests);
-  placeStrokes(surface, threads);
+  placeStrokes(surface, edgeLength, threads);
   moveRequests(surface.mesh, asked.valencePlaces, surface.valenceRequests);
   moveRequests(surface.mesh, asked.sectorPlaces, surface.sectorRequests);
 }

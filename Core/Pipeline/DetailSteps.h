@@ -50,6 +50,6 @@ struct AskedPlaces
 };
 AskedPlaces askedPlaces(const PreparedSurface& surface);
 /// Of the vertices at the same places of another surface; what has none there is dropped.
-void ask(const AskedPlaces& asked, PreparedSurface& surface, int threads);
+void ask(const AskedPlaces& asked, PreparedSurface& surface, double edgeLength, int threads);
 
 } // namespace quadrille

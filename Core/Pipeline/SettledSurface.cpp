@@ -304,7 +304,7 @@ void simplifyAll(Settling& work, DetailLimits& limits)
 void takeRequests(PreparedSurface surface, const AskedPlaces& asked, Settling& work)
 {
   const std::vector<ValenceRequest> before = surface.valenceRequests;
-  ask(asked, surface, work.options.threads);
+  ask(asked, surface, work.sized.edgeLength, work.options.threads);
   const bool isSame = std::equal(before.begin(), before.end(), surface.valenceRequests.begin(),
     surface.valenceRequests.end(),
     [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex == b.vertex; });

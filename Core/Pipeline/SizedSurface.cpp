@@ -270,7 +270,7 @@ SizedSurface finished(
 {
   if (sized.status.ok())
   {
-    placeStrokes(surface, options.threads);
+    placeStrokes(surface, sized.edgeLength, options.threads);
     guideByCurvature(surface, options, sized);
     tell(requestNotices(surface, surfaceGuides(surface, options.threads)), sized.notices);
     for (const std::string& sentence : repairSentences(surface.repair))

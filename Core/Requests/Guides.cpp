@@ -255,9 +255,9 @@ private:
 
 } // namespace
 
-void placeStrokes(PreparedSurface& surface, int threads)
+void placeStrokes(PreparedSurface& surface, double edgeLength, int threads)
 {
-  surface.strokeFaces = facesOfStrokes(surface.mesh, surface.strokes, threads);
+  surface.strokeFaces = facesOfStrokes(surface.mesh, surface.strokes, edgeLength, threads);
 }
 
 SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)

@@ -27,8 +27,8 @@ void checkRequests(const SurfaceInput& input);
 void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int threads);
 
 /// Finds the faces that the surface's strokes guide, once the surface has its final faces, and again where these have
-/// changed.
-void placeStrokes(PreparedSurface& surface, int threads);
+/// changed. edgeLength: of the quads.
+void placeStrokes(PreparedSurface& surface, double edgeLength, int threads);
 
 /// Guides of the faces of the mesh, ascending by face: of polygons and of strokes.
 struct SurfaceGuides

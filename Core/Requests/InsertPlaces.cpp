@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <string>
@@ -27,10 +28,6 @@ namespace
 constexpr double kTaken = 0.01;
 /// A path takes a vertex in place of a point of a shorter edge than this, in s: it is straight to a tenth of s.
 constexpr double kFineForPaths = 0.2;
-/// Edges that come so near to a size's place, in radii, are made short against the radius.
-constexpr double kShareOfRadius = 0.5;
-/// From there on they may be so long against their distance, as far as sizes grow to those around.
-constexpr double kShareOfDistance = 0.5;
 
 class Insertion
 {
@@ -98,7 +95,7 @@ public:
 
   bool splitConstraint() const { return splitConstraint_; }
 
-  /// Splits edges near places until they are as short as the sizes there need.
+  /// Splits edges near places until sizes that are linear on triangles pass to those around as they are to.
   void refineAround(const std::vector<SizeRequest>& sizes)
   {
     std::vector<Index> open;
@@ -151,20 +148,13 @@ private:
   {
     const Vector3& a = mesh_.position[mesh_.origin[h]];
     const Vector3& b = mesh_.position[mesh_.target(h)];
-    const double length = (b - a).norm();
-    return std::any_of(sizes.begin(), sizes.end(),
-      [&](const SizeRequest& size)
-      {
-        const double most = kShareOfRadius * std::max(size.radius, s_);
-        if (length <= most)
+    return (b - a).norm() > s_ &&
+      std::any_of(sizes.begin(), sizes.end(),
+        [&](const SizeRequest& size)
         {
-          return false;
-        }
-        const double distance = distanceToSegment(size.place, a, b);
-        const double reach = std::abs(size.factor - 1) / kSizeGrowth * s_;
-        return distance < size.radius + reach &&
-          length > std::max(most, kShareOfDistance * distance);
-      });
+          const double reach = std::abs(size.factor - 1) / kSizeGrowth * s_;
+          return distanceToSegment(size.place, a, b) < size.radius + reach;
+        });
   }
 
   /// The end of the way from an edge to the longest one of the faces beside it, and so on, as in longest-edge bisection
@@ -431,17 +421,39 @@ private:
   std::unordered_map<Index, std::vector<Index>> partsOf_;
 };
 
-/// The size of a vertex outside of all radii where nothing else is asked for: larger ones decrease from there on, as
-/// smaller ones grow.
+/// Those that no later one goes before at their places. orders: of vertices. centres: the vertices of the places.
+std::vector<SizeRequest> sizesThatCount(const std::vector<SizeRequest>& sizes,
+  const std::vector<Index>& centres, const std::vector<int>& orders)
+{
+  std::vector<SizeRequest> counting;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+  {
+    const bool isCovered = orders[centres[i]] > sizes[i].order ||
+      std::any_of(sizes.begin(), sizes.end(),
+        [&](const SizeRequest& other) {
+          return other.order > sizes[i].order &&
+            (other.place - sizes[i].place).norm() <= other.radius;
+        });
+    if (!isCovered)
+    {
+      counting.push_back(sizes[i]);
+    }
+  }
+  return counting;
+}
+
+/// The size of a vertex outside of all radii where nothing else is asked for. Beyond a radius sizes pass to those
+/// around, larger ones and smaller ones alike; where a larger one and a smaller one pass it is the smaller one.
 double sizeBeyond(const std::vector<SizeRequest>& sizes, const Vector3& p, double s)
 {
-  double size = 1;
+  double larger = 1, most = std::numeric_limits<double>::infinity();
   for (const SizeRequest& asked : sizes)
   {
-    const double beyond = (p - asked.place).norm() - asked.radius;
-    size = std::max(size, asked.factor - kSizeGrowth * beyond / s);
+    const double change = kSizeGrowth * ((p - asked.place).norm() - asked.radius) / s;
+    larger = std::max(larger, asked.factor - change);
+    most = std::min(most, asked.factor + change);
   }
-  return size;
+  return std::min(larger, most);
 }
 
 } // namespace
@@ -506,6 +518,7 @@ void insertSizes(PreparedSurface& surface, const std::vector<SizeRequest>& sizes
   const std::vector<Index> centres = insertion.vertices(places);
   insertion.refineAround(sizes);
   orders.resize(mesh.vertexCount(), 0);
+  const std::vector<SizeRequest> passing = sizesThatCount(sizes, centres, orders);
   float* const sizing = mesh.sizing.edit();
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
@@ -525,7 +538,7 @@ void insertSizes(PreparedSurface& surface, const std::vector<SizeRequest>& sizes
     }
     if (isFree)
     {
-      sizing[v] = static_cast<float>(sizeBeyond(sizes, mesh.position[v], options.edgeLength));
+      sizing[v] = static_cast<float>(sizeBeyond(passing, mesh.position[v], options.edgeLength));
     }
   }
 }

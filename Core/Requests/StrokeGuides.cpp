@@ -4,6 +4,7 @@
 
 #include "Mesh/BoxTree.h"
 #include "Mesh/Distance.h"
+#include "Mesh/Sizing.h"
 #include "Requests/MeshPaths.h"
 
 #include <algorithm>
@@ -98,7 +99,8 @@ private:
 };
 
 /// Directions of faces under one stroke and round it.
-std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, double radius)
+std::map<Index, Vector3> directionsOf(
+  const Mesh& mesh, const PathParts& parts, double radius, double edgeLength)
 {
   std::map<Index, Vector3> directions;
   for (const PathPart& part : parts)
@@ -114,8 +116,8 @@ std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, 
     seen.insert(face);
     front.insert(face);
   }
-  const NearestPart nearest(radius > 0 ? parts : PathParts());
-  while (radius > 0 && !front.empty())
+  const NearestPart nearest(parts);
+  while (!front.empty())
   {
     const Index face = *front.begin();
     front.erase(front.begin());
@@ -126,7 +128,8 @@ std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, 
       {
         continue;
       }
-      const Vector3 direction = nearest.direction(mesh.middleOfFace(other), radius);
+      const double reach = radius + 0.25 * edgeLength * sizeAt(mesh, mesh.origin[3 * other]);
+      const Vector3 direction = nearest.direction(mesh.middleOfFace(other), reach);
       if (!direction.isZero(0))
       {
         directions[other] = direction;
@@ -140,7 +143,7 @@ std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, 
 } // namespace
 
 std::vector<StrokeFace> facesOfStrokes(
-  const Mesh& mesh, const std::vector<StrokeRequest>& strokes, int threads)
+  const Mesh& mesh, const std::vector<StrokeRequest>& strokes, double edgeLength, int threads)
 {
   std::vector<StrokeFace> result;
   if (strokes.empty())
@@ -151,7 +154,8 @@ std::vector<StrokeFace> facesOfStrokes(
   std::map<Index, StrokeFace> faces;
   for (std::size_t k = 0; k < strokes.size(); ++k)
   {
-    for (const auto& [face, direction] : directionsOf(mesh, parts[k], strokes[k].radius))
+    for (const auto& [face, direction] :
+      directionsOf(mesh, parts[k], strokes[k].radius, edgeLength))
     {
       StrokeFace& guided = faces.try_emplace(face).first->second;
       if (guided.face == kInvalidIndex || guided.order <= strokes[k].order)

@@ -78,7 +78,7 @@ public:
   }
   ConstraintMeasure operator()(const SizeAt& at);
   ConstraintMeasure operator()(const SizeRegion& region);
-  ConstraintMeasure operator()(const IrregularEdit&) { return irregularEdit(); }
+  ConstraintMeasure operator()(const IrregularEdit& edit) { return irregularEdit(edit); }
   ConstraintMeasure operator()(const Connection&) { return line(ConstraintKind::Connection); }
   ConstraintMeasure operator()(const Cycle&) { return line(ConstraintKind::Cycle); }
   ConstraintMeasure operator()(const MirrorSymmetry&)
@@ -94,7 +94,7 @@ public:
 
 private:
   ConstraintMeasure judgeSymmetry(const char* unlike) const;
-  ConstraintMeasure irregularEdit();
+  ConstraintMeasure irregularEdit(const IrregularEdit& edit);
   std::vector<Vector3> otherChanges();
   std::string whoCounts(const std::vector<WeightedPlace>& places, bool isSize);
   using Cover = std::function<bool(const Vector3&)>;
@@ -162,9 +162,20 @@ private:
   std::size_t at_ = 0; ///< of the constraint
 };
 
+/// Where a valence is looked for: of a vertex that an operation has made regular at the point that was given for it, as
+/// smoothing moves vertices off their places of the map, and another one may be nearer to that.
+Vector3 placeInQuads(const IrregularEdit& edit, const Vector3& place, int asked)
+{
+  return asked != kRegularValence
+    ? place
+    : *std::min_element(edit.points.begin(), edit.points.end(),
+        [&](const Vector3& a, const Vector3& b)
+        { return (a - place).squaredNorm() < (b - place).squaredNorm(); });
+}
+
 /// The vertices that it changed last have their valences in the quads; and of the last operation: all others are
 /// where they were. The deviation is that of the vertices.
-ConstraintMeasure SessionJudge::irregularEdit()
+ConstraintMeasure SessionJudge::irregularEdit(const IrregularEdit& edit)
 {
   ConstraintMeasure measure;
   measure.place = part_->place;
@@ -173,7 +184,7 @@ ConstraintMeasure SessionJudge::irregularEdit()
   measure.isMet = true;
   for (const auto& [place, asked] : part_->valences)
   {
-    const ConstraintMeasure there = measures_.valence(place, asked);
+    const ConstraintMeasure there = measures_.valence(placeInQuads(edit, place, asked), asked);
     const bool isFarther = !(there.deviation <= measure.deviation); // or there is none
     if (isFarther || (measure.isMet && !there.isMet))
     {
@@ -227,12 +238,14 @@ std::vector<Vector3> SessionJudge::otherChanges()
     {
       drawn.insert(drawn.end(), part.path.begin(), part.path.end());
     }
+    const auto* edit = std::get_if<IrregularEdit>(&constraints_[i]->content);
     for (const auto& [place, valence] : part.valences)
     {
       told.push_back(place);
-      if (!measures_.valence(place, valence).isMet)
+      const Vector3 looked = edit != nullptr ? placeInQuads(*edit, place, valence) : place;
+      if (!measures_.valence(looked, valence).isMet)
       {
-        failed.push_back(place);
+        failed.push_back(looked);
       }
     }
     if (std::holds_alternative<ValenceAt>(constraints_[i]->content))

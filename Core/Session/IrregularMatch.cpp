@@ -3,8 +3,10 @@
 #include "Session/IrregularMatch.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace quadrille
 {
@@ -50,20 +52,77 @@ std::vector<IrregularPair> pairsWithin(const std::vector<IrregularVertex>& expec
   return pairs;
 }
 
+/// As many pairs as can be, each vertex in one at most.
+class Partners
+{
+public:
+  Partners(const std::vector<IrregularPair>& pairs, std::size_t expected, std::size_t actual)
+    : candidates_(expected), actualOf_(expected), expectedOf_(actual)
+  {
+    for (const IrregularPair& pair : pairs)
+    {
+      candidates_[pair.expected].push_back(pair.actual);
+      if (!actualOf_[pair.expected] && !expectedOf_[pair.actual])
+      {
+        join(pair.expected, pair.actual);
+      }
+    }
+    for (std::size_t i = 0; i < expected; ++i)
+    {
+      if (!actualOf_[i])
+      {
+        isSeen_.assign(actual, 0);
+        findFor(i);
+      }
+    }
+  }
+
+  std::vector<std::optional<std::size_t>> take() { return std::move(actualOf_); }
+
+private:
+  void join(std::size_t expected, std::size_t actual)
+  {
+    actualOf_[expected] = actual;
+    expectedOf_[actual] = expected;
+  }
+  /// A partner that is free, or whose own one finds another: an augmenting path.
+  bool findFor(std::size_t expected)
+  {
+    for (const std::size_t actual : candidates_[expected])
+    {
+      if (isSeen_[actual] != 0)
+      {
+        continue;
+      }
+      isSeen_[actual] = 1;
+      if (!expectedOf_[actual] || findFor(*expectedOf_[actual]))
+      {
+        join(expected, actual);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::vector<std::vector<std::size_t>> candidates_; ///< of expected ones, the nearest first
+  std::vector<std::optional<std::size_t>> actualOf_, expectedOf_;
+  std::vector<std::uint8_t> isSeen_; ///< actual ones
+};
+
 } // namespace
 
 IrregularMatch matchIrregular(const std::vector<IrregularVertex>& expected,
   const std::vector<IrregularVertex>& actual, const std::vector<double>& reach)
 {
   IrregularMatch match;
-  match.actual.resize(expected.size());
+  match.actual =
+    Partners(pairsWithin(expected, actual, reach), expected.size(), actual.size()).take();
   std::vector<std::uint8_t> isTaken(actual.size(), 0);
-  for (const IrregularPair& pair : pairsWithin(expected, actual, reach))
+  for (const std::optional<std::size_t>& partner : match.actual)
   {
-    if (!match.actual[pair.expected] && isTaken[pair.actual] == 0)
+    if (partner)
     {
-      match.actual[pair.expected] = pair.actual;
-      isTaken[pair.actual] = 1;
+      isTaken[*partner] = 1;
     }
   }
   for (std::size_t k = 0; k < actual.size(); ++k)

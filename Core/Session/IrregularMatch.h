@@ -19,8 +19,8 @@ struct IrregularMatch
   std::vector<std::size_t> unexpected;            ///< of the actual ones, ascending
 };
 
-/// Pairs of the same valence at most reach apart, the nearest ones first, each vertex in one pair at most. reach: of
-/// each expected one.
+/// Pairs of the same valence at most reach apart, as many as can be, each vertex in one at most; the nearest ones where
+/// that leaves no other without a partner. reach: of each expected one.
 IrregularMatch matchIrregular(const std::vector<IrregularVertex>& expected,
   const std::vector<IrregularVertex>& actual, const std::vector<double>& reach);
 

@@ -17,9 +17,9 @@ from scipy.spatial import cKDTree
 STEP = 0.1
 #: Edge lengths within which a place or a line has to be.
 PLACE = 0.3
-#: Edge lengths of the quad there within which other irregular vertices are where they were, as the guide has it.
+#: Edge lengths of the quads there within which other irregular vertices are where they were, as the guide has it.
 OTHERS = 2
-#: Edge lengths of the quad there within which a connection ends where its line does, as the guide has it.
+#: Edge lengths of the quads there within which a connection ends where its line does, as the guide has it.
 ENDS = 1
 #: Mean edge lengths by which a chain and its course may differ, as the guide has it.
 REACH = 6
@@ -180,6 +180,12 @@ class Surface:
 
     def to_boundary(self, places):
         return numpy.full(len(places), numpy.inf) if self.boundary is None else self.boundary[0].query(places)[0]
+
+    def off_features(self, place, radius):
+        """Of the surface within a radius the distances from features and boundaries, and the areas."""
+        near = numpy.flatnonzero(numpy.linalg.norm(self._middles - place, axis=1) <= radius)
+        places = self._middles[near]
+        return numpy.minimum(self.to_feature(places), self.to_boundary(places)), self.areas[near]
 
     def nearest(self, places):
         """Points of the surface, their triangles and their distances from places."""
@@ -347,13 +353,15 @@ class Quads:
         return float(self.sizes[near].mean())
 
     def edge_at(self, place):
-        """The mean of the edges of the quad that is nearest to a place."""
+        """The mean of the edges of the quads at the vertex that is nearest to a place, of those of its nearest quad."""
         near = self.tree.query(place, k=min(9, len(self.quads)))[1].reshape(-1)
         corners = self.points[self.quads[near]]
         there = numpy.repeat([place], len(near), axis=0)
-        nearest = corners[numpy.minimum(*(in_triangles(there, *(corners[:, i] for i in half))[1]
-                                          for half in ((0, 1, 2), (0, 2, 3)))).argmin()]
-        return float(numpy.linalg.norm(numpy.roll(nearest, -1, axis=0) - nearest, axis=1).mean())
+        nearest = self.quads[near[numpy.minimum(*(in_triangles(there, *(corners[:, i] for i in half))[1]
+                                                  for half in ((0, 1, 2), (0, 2, 3)))).argmin()]]
+        vertex = nearest[numpy.linalg.norm(self.points[nearest] - place, axis=1).argmin()]
+        corners = self.points[self.quads[(self.quads == vertex).any(axis=1)]]
+        return float(numpy.linalg.norm(numpy.roll(corners, -1, axis=1) - corners, axis=2).mean())
 
     def below(self, places, normals):
         """For each place the quad that is nearest to it, of those that face the same way."""
@@ -477,23 +485,23 @@ def judge_valence(surface, quads, place, valence):
 
 
 def others(quads, place, valence):
-    """Irregular vertices, on features and boundaries too, without the nearest to a place of that valence: places, their
-    valences, on boundaries one more than the edges, and how far OTHERS is there."""
+    """Irregular vertices, on features and boundaries too, without the nearest to a place of that valence: places and
+    their valences, on boundaries one more than the edges."""
     valences = quads.valence + quads.boundary
     those = numpy.flatnonzero(valences != 4)
     same = those[valences[those] == valence]
     if len(same):
         those = those[those != same[numpy.linalg.norm(quads.points[same] - place, axis=1).argmin()]]
-    within = numpy.array([OTHERS * quads.edge_at(quads.points[p]) for p in those])
-    return quads.points[those], valences[those], within
+    return quads.points[those], valences[those]
 
 
-def changed(before, after):
-    """Of the irregular vertices of two meshes those that have no partner of their valence within OTHERS, each being the
-    partner of one at most."""
-    (places, valences, within), (there, valences_there, _) = before, after
+def changed(before, after, quads):
+    """Of the irregular vertices of two meshes those that have no partner of their valence within OTHERS, in the quads
+    after, each being the partner of one at most."""
+    (places, valences), (there, valences_there) = before, after
     if not len(places) or not len(there):
         return len(places) + len(there)
+    within = numpy.array([OTHERS * quads.edge_at(place) for place in places])
     apart_by = numpy.linalg.norm(places[:, None] - there, axis=2)
     pairs = (apart_by <= within[:, None]) & (valences[:, None] == valences_there)
     partners = maximum_bipartite_matching(csr_matrix(pairs), perm_type="column")
@@ -507,7 +515,7 @@ def judge_move(surface, quads, free, origin, target, valence):
     same_side = numpy.flatnonzero(quads.point_normals @ surface.normals[face[0]] > 0)
     nearest = same_side[numpy.linalg.norm(quads.points[same_side] - place[0], axis=1).argmin()]
     left = int(quads.valence[nearest]) + int(quads.boundary[nearest])
-    elsewhere = changed(others(free, origin, valence), others(quads, target, valence))
+    elsewhere = changed(others(free, origin, valence), others(quads, target, valence), quads)
     return Verdict(verdict.ok and left == 4 and elsewhere == 0, verdict.deviation,
                    f"at the old place: valence {left}; {elsewhere} others went or came")
 
@@ -604,7 +612,11 @@ def judge_stroke(surface, quads, course, radius, clear=0):
         return Verdict(False, math.inf, "no quads there")
     along = course.directions[near]
     along = unit(along - dots(along, quads.normals[which])[:, None] * quads.normals[which])
-    cosine = numpy.abs(dots(quads.families_at(which, places), along[:, None])).max(axis=1)
+    # In the plane of the quad: on curved surfaces its edges leave it.
+    across = quads.normals[which][:, None]
+    families = quads.families_at(which, places)
+    families = unit(families - dots(families, across)[..., None] * across)
+    cosine = numpy.abs(dots(families, along[:, None])).max(axis=1)
     angles = numpy.degrees(numpy.arccos(numpy.minimum(1, cosine)))
     mean = float((weights * angles).sum() / weights.sum())
     features = surface.to_feature(course.places).min() / quads.length_at(course.places)

@@ -16,10 +16,11 @@ had wrong on a cube: a row each, with its notices. Each model runs in a process 
 the others go on.
 
 A place is feasible unless the session does not give it and the judge sees why not: it lies on a feature or boundary,
-the way there crosses a feature, or what lies between features has room for less than nine quads. A
-stroke has room where its features are two edge lengths away, and quads that turn from them to it have sizes that grow
-by at most a quarter an edge length, as the guide lets sizes grow. Random sessions of all kinds of edits are made by
-`check/random_sessions.py MODEL... --sessions N --inside`.
+the way there crosses a feature, or what lies between features has room for less than nine quads; of a size, half of the
+area within its radius is nearer to features than half a quad of that size, as in strips narrower than two of them,
+across which a whole number need not come near it. A stroke has room where its features are two edge lengths away, and
+quads that turn from them to it have sizes that grow by at most a quarter an edge length, as the guide lets sizes grow.
+Random sessions of all kinds of edits are made by `check/random_sessions.py MODEL... --sessions N --inside`.
 """
 import argparse
 import collections
@@ -383,9 +384,12 @@ class Model:
         return self.ask_size(place, factor, self.random.uniform(3, 6) * self.free.length_at(place))
 
     def ask_size(self, place, factor, radius):
+        off, areas = self.surface.off_features(place, radius)
+        narrow = len(off) and judge.weighted_median(off, areas) < 0.5 * factor * self.surface.edge
         return Ask("size", f"{factor:.3g} within {radius:.4g} of {text_of(place)}",
                    lambda s: s.set_size(place, factor, radius=radius),
-                   lambda quads: judge.judge_size(self.surface, quads, place, radius, factor, GROWTH))
+                   lambda quads: judge.judge_size(self.surface, quads, place, radius, factor, GROWTH),
+                   "less than two such quads between features" if narrow else "")
 
     # Runs.
 

@@ -100,10 +100,42 @@ TEST(SizeCones, ASmallPlaceIsWorthIrregularVerticesByItsQuads)
   const auto irregularOf = [](const std::vector<int>& targets)
   { return std::count_if(targets.begin(), targets.end(), [](int t) { return t != 0 && t != 4; }); };
   const auto byShare = irregularOf(valencesForSizes(mesh, topology, before, {}));
-  const auto byQuads =
-    irregularOf(valencesForSizes(mesh, topology, before, {}, worthOfVertexAt(3600)));
+  const auto byQuads = irregularOf(valencesForSizes(mesh, topology, before, {}, { true, 3600 }));
   EXPECT_GT(byQuads, byShare);
-  EXPECT_EQ(worthOfVertexAt(1), kWorthOfVertex);
+}
+
+TEST(SizeCones, TurnsStayWhereNoOtherSizeIsAskedFor)
+{
+  const Vector3 place(30, 30, 0);
+  const auto sizeAt = [&](const Vector3& p)
+  { return std::min(1.0, 0.5 + 0.25 * std::max((p - place).norm() - 4, 0.0)); };
+  const Mesh mesh = withSizes(gridPlane(60, 60), sizeAt);
+  const FieldTopology topology = buildFieldTopology(mesh);
+  // A pair far from the place, which stands in the way of equal sizes and would be taken away.
+  std::vector<std::pair<Index, int>> pair;
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    const Vector3& p = mesh.position[v];
+    const bool isThree = (p - Vector3(10, 10, 0)).norm() < 0.1;
+    if (isThree || (p - Vector3(10, 30, 0)).norm() < 0.1)
+    {
+      pair.emplace_back(v, isThree ? 3 : 5);
+    }
+  }
+  ASSERT_EQ(pair.size(), 2U);
+  const std::vector<int> before = turnsWith(topology, pair);
+  const std::vector<int> anywhere = valencesForSizes(mesh, topology, before, {});
+  EXPECT_EQ(anywhere[pair[0].first], 4);
+  const std::vector<int> there = valencesForSizes(mesh, topology, before, {}, { true, 3600 });
+  std::size_t moved = 0;
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    const bool isSector = there[v] == 0;
+    const int wanted = v == pair[0].first ? 3 : v == pair[1].first ? 5 : 4;
+    EXPECT_TRUE(isSector || mesh.sizing[v] != 1 || there[v] == wanted);
+    moved += !isSector && there[v] != wanted ? 1 : 0;
+  }
+  EXPECT_GE(moved, 2U);
 }
 
 TEST(SizeCones, TargetsOfTheUserStay)

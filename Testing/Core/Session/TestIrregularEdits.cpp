@@ -4,6 +4,7 @@
 #include "SessionHelpers.h"
 
 #include "PlyFile.h"
+#include "Session/IrregularMatch.h"
 
 #include <memory>
 
@@ -281,6 +282,21 @@ TEST(IrregularEditsOnCurves, PlacesOnFeaturesAreRefused)
   EXPECT_THROW(session.add(IrregularEdit{
                  IrregularOperation::Move, { { 0, 0, 0.5 }, { 0.5, 0.5, 0 } }, {}, {}, {}, {} }),
     InvalidInput);
+}
+
+TEST(IrregularMatch, PairsAsManyAsCanBe)
+{
+  // The nearest pair alone would leave the first one and the last one without a partner.
+  const auto at = [](double x, int valence) {
+    return IrregularVertex{ Vector3(x, 0, 0), valence };
+  };
+  const IrregularMatch match = matchIrregular(
+    { at(0, 3), at(1.5, 3), at(5, 5) }, { at(0.8, 3), at(3, 3), at(5, 3) }, { 2, 2, 2 });
+  ASSERT_EQ(match.actual.size(), 3U);
+  EXPECT_EQ(match.actual[0], std::optional<std::size_t>(0));
+  EXPECT_EQ(match.actual[1], std::optional<std::size_t>(1));
+  EXPECT_FALSE(match.actual[2]);
+  EXPECT_EQ(match.unexpected, std::vector<std::size_t>{ 2 });
 }
 
 } // namespace
