@@ -19,7 +19,7 @@ namespace
 constexpr int kRingsOfChanges = 1, kRingsOfPatch = 2;
 
 /// Quads with a corner that is straight but for this count as inverted: rounding makes them so.
-constexpr double kStraight = 1e-4;
+constexpr double kStraightCorner = 1e-4;
 
 using Quad = std::array<Index, 4>;
 
@@ -56,7 +56,7 @@ QuadScore scoreOf(const FaceQuads& mesh)
     {
       const double shape =
         std::min(shapeOfQuad(mesh, quad), scaledJacobian(cornersOf(mesh.points, quad)));
-      score.inverted += shape > kStraight ? 0 : 1;
+      score.inverted += shape > kStraightCorner ? 0 : 1;
       score.bad += shape < kLeastShape ? 1 : 0;
       score.worst = std::min(score.worst, shape);
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Quads of a bad shape, inverted ones above all, that no places of their points mend, as where one has a flat corner on
-/// a curve: other edges between the points do, or a quad less or more.
+/// Quads of a bad shape, inverted ones above all, that no places of their points mend, as where one has a flat corner
+/// on a curve: other edges between the points do, or a quad less or more.
 #pragma once
 
 #include "Mesh/Mesh.h"
@@ -14,8 +14,8 @@ namespace quadrille
 
 /// Changes quads round those with a scaled Jacobian below 0.1, between the lines of the mesh, and moves points there,
 /// where fewer are inverted then, or as many and fewer are bad. Lines and points on them stay, and so do all quads at
-/// fixedVertices (of the mesh, ascending). The quads must be a manifold that lies on the mesh; where there are polygons,
-/// nothing is done. New quads have no place in the map (QuadMesh::quadSourceWeights).
+/// fixedVertices (of the mesh, ascending). The quads must be a manifold that lies on the mesh; where there are
+/// polygons, nothing is done. New quads have no place in the map (QuadMesh::quadSourceWeights).
 void repairQuads(
   const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices, int threads = 1);
 

@@ -23,10 +23,12 @@ def run(mpiexec, pvbatch, ranks, cases):
     with tempfile.TemporaryDirectory() as folder:
         # Ranks that wait leave the processor to the others, of which there may be more than processors.
         environment = dict(os.environ, QUADRILLE_MPI_FACTS=folder, OMPI_MCA_mpi_yield_when_idle="1")
+        seconds = SECONDS * len(cases)
         try:
-            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=SECONDS * len(cases), env=environment)
+            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                  timeout=seconds, env=environment)
         except subprocess.TimeoutExpired as late:
-            sys.exit(f"FAILED: {ranks} ranks did not end after {SECONDS * len(cases)} s\n{(late.stdout or b'').decode()}")
+            sys.exit(f"FAILED: {ranks} ranks did not end after {seconds} s\n{(late.stdout or b'').decode()}")
         if done.returncode != 0:
             sys.exit(f"FAILED: {ranks} ranks ended with {done.returncode}\n{done.stdout}")
         lines = [line for facts in pathlib.Path(folder).iterdir() for line in facts.read_text().splitlines()]
