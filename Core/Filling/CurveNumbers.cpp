@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -264,16 +265,14 @@ std::vector<Vector3> FaceCurves::cornersRound(Index face) const
     {
       std::vector<double>& parts = found->second;
       std::sort(parts.begin(), parts.end());
-      std::vector<Vector3> places;
-      for (const double t : parts)
-      {
-        places.push_back(positionOf(mesh_, CurvePoint{ found->first, t }.onSurface()));
-      }
       if (!isLower)
       {
-        std::reverse(places.begin(), places.end());
+        std::reverse(parts.begin(), parts.end());
       }
-      append(corners, places);
+      std::transform(parts.begin(), parts.end(), std::back_inserter(corners),
+        [&](double t) {
+          return positionOf(mesh_, CurvePoint{ found->first, t }.onSurface());
+        });
     }
     h = nextOnLoop_[h];
   } while (h != first);

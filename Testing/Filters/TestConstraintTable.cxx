@@ -163,14 +163,14 @@ TEST(ConstraintTable, AStrokeThatRunsOverARegionIsNamed)
 {
   const vtkSmartPointer<vtkPolyData> data = plate();
   guide(data, 45, everywhere);
-  const vtkSmartPointer<vtkPolyData> stroke = test::polyline({ { -4, 0, 0 }, { 4, 0, 0 } });
+  const vtkSmartPointer<vtkPolyData> stroke = test::polyline({ { -4, 0.1, 0 }, { 4, 0.1, 0 } });
   ConstraintInputs inputs;
   inputs.strokes = stroke;
   const auto words = judgeConstraints(ask(data, inputs), turnedGrid(20, 0), {});
   ASSERT_EQ(words.size(), 2u);
   EXPECT_NEAR(words[0].deviation, 45, 1e-9);
-  // Two of sixteen rows are nearer to it than half a quad.
-  EXPECT_NE(words[0].reason.find("13 % of it is under guiding stroke 0"), std::string::npos)
+  // One of sixteen rows is nearer to it than a quarter of a quad.
+  EXPECT_NE(words[0].reason.find("6 % of it is under guiding stroke 0"), std::string::npos)
     << words[0].reason;
   EXPECT_STREQ(words[1].kind, "guide stroke");
   EXPECT_NEAR(words[1].deviation, 0, 1e-9);
