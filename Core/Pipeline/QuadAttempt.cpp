@@ -225,7 +225,8 @@ void extractOnSurface(
   options.smoothingSteps = run.options.smoothingSteps;
   options.fixedVertices = verticesThatStay(*surface, map);
   options.guides = map.guides;
-  options.replacesBad = map.curves.empty(); // else quads of their chains could go
+  // Else quads of the curves' chains could go. Of the coarsest ones each is a patch of a layout, whatever its shape.
+  options.replacesBad = map.curves.empty() && !run.options.coarsestIntegers;
   options.mapIsCertified = map.certificate.valid();
   options.shape = shape.get();
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");
