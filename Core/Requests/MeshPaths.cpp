@@ -368,6 +368,9 @@ struct StripPath
   }
 };
 
+/// Of its length: a path counts as shorter from there on.
+constexpr double kShorter = 1 - 1e-12;
+
 /// A part of a strip, from portal `first` on, and what it becomes.
 struct ChangedPart
 {
@@ -432,13 +435,12 @@ std::optional<ChangedPart> ledRound(const Mesh& mesh, std::size_t k, const MeshP
   part.strip.insert(part.strip.end(), at(fan.last + 1), at(part.end));
   const StripPath other(mesh, part.strip, placeOfCorner(mesh, path, low, from, to),
     placeOfCorner(mesh, path, high, from, to));
-  constexpr double kShorter = 1 - 1e-12;
   return lengthOf(other.corners) < kShorter * before ? std::optional<ChangedPart>(std::move(part))
                                                      : std::nullopt;
 }
 
-/// The strip led round all corners where that makes the path shorter, but for those whose parts overlap. Whether there
-/// are any.
+/// The strip led round all corners where that makes the path shorter, but for those whose parts overlap. Whether it is
+/// shorter as a whole then: between needles parts may be that are not, up to rounding, once they are joined.
 bool leadRound(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to, StripPath& path)
 {
   std::vector<Index> strip;
@@ -463,8 +465,17 @@ bool leadRound(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to, Str
     }
   }
   take(path.strip.size());
-  path = isShorter ? StripPath(mesh, std::move(strip), from, to) : std::move(path);
-  return isShorter;
+  if (!isShorter)
+  {
+    return false;
+  }
+  StripPath other(mesh, std::move(strip), from, to);
+  if (!(lengthOf(other.corners) < kShorter * lengthOf(path.corners)))
+  {
+    return false;
+  }
+  path = std::move(other);
+  return true;
 }
 
 bool liesOn(const Mesh& mesh, Index h, const Vector3& p)
