@@ -62,6 +62,7 @@ enum class Try : std::uint8_t
   LevelOfPatch,
   MoreCorners,
   WiderUntangling,
+  OtherEdges,
   NodeFurther,
   CentreOtherwise,
   LooserGuards,

@@ -4,6 +4,7 @@
 
 #include "Base/Lists.h"
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "Filling/QuadChanges.h"
 #include "Filling/QuadPatches.h"
 #include "Quads/QuadShape.h"
@@ -45,7 +46,10 @@ public:
     for (const Index q : bad)
     {
       poll();
-      any |= mendAt(q);
+      const bool isMended = mendAt(q);
+      countTry(Try::OtherEdges);
+      countTryLed(Try::OtherEdges, isMended ? 1 : 0);
+      any = any || isMended;
     }
     if (any)
     {
