@@ -44,13 +44,13 @@ std::vector<Index> faceLabels(const Mesh& mesh)
   return faceComponents(opened, count);
 }
 
-/// Whether a designed surface has several faces, and nothing is asked for that quads without a map may not have.
+/// Whether a designed surface has several faces, and nothing is asked for that quads without a map may not have. Guides
+/// and sizes are wishes, which filled faces need not follow.
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
 {
   const bool isAsked = !surface.valenceRequests.empty() || !surface.sectorRequests.empty() ||
-    !surface.strokeFaces.empty() || !surface.strokes.empty() || !surface.curves.empty() ||
-    !surface.seams.empty() || !surface.straight.empty() || surface.regularElsewhere ||
-    surface.regularOnFeatures;
+    !surface.curves.empty() || !surface.seams.empty() || !surface.straight.empty() ||
+    surface.regularElsewhere || surface.regularOnFeatures;
   if (isAsked || !surface.facets.isDesigned || options.preview ||
     options.method != MapMethod::ScaleAware)
   {
