@@ -20,20 +20,29 @@ namespace
 /// A curve that bends by more than this has a corner, where the quads have a point.
 constexpr double kCurveCorner = 0.5235987755982988; // 30 degrees
 
-/// Per half-edge of the boundary the number of its loop; kInvalidIndex inside. next: the half-edge after it.
-std::vector<Index> boundaryLoops(const Mesh& mesh, Index& count, std::vector<Index>& next)
+/// Per half-edge of the boundary the one after it; kInvalidIndex inside.
+std::vector<Index> nextOnBoundaries(const Mesh& mesh)
 {
-  std::vector<Index> loopOf(mesh.halfEdgeCount(), kInvalidIndex);
-  next.assign(mesh.halfEdgeCount(), kInvalidIndex);
-  count = 0;
-  for (Index first = 0; first < mesh.halfEdgeCount(); ++first)
+  std::vector<Index> next(mesh.halfEdgeCount(), kInvalidIndex);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
-    if (mesh.isBoundary(first) && loopOf[first] == kInvalidIndex)
+    next[h] = mesh.isBoundary(h) ? nextOnBoundary(mesh, h) : kInvalidIndex;
+  }
+  return next;
+}
+
+/// Per half-edge of these the number of its loop.
+std::vector<Index> boundaryLoops(const std::vector<Index>& next, Index& count)
+{
+  std::vector<Index> loopOf(next.size(), kInvalidIndex);
+  count = 0;
+  for (Index first = 0; first < next.size(); ++first)
+  {
+    if (next[first] != kInvalidIndex && loopOf[first] == kInvalidIndex)
     {
       for (Index h = first; loopOf[h] == kInvalidIndex; h = next[h])
       {
         loopOf[h] = count;
-        next[h] = nextOnBoundary(mesh, h);
       }
       ++count;
     }
@@ -50,7 +59,8 @@ FaceCurves::FaceCurves(const Mesh& mesh, std::vector<std::uint8_t> isGiven, doub
   Mesh opened = mesh;
   cutOpenAtFeatures(opened);
   faceOf_ = faceComponents(opened, faces_);
-  loopOf_ = boundaryLoops(opened, loops_, nextOnLoop_);
+  nextOnLoop_ = nextOnBoundaries(opened);
+  loopOf_ = boundaryLoops(nextOnLoop_, loops_);
   for (const Index h : edges_)
   {
     at_[mesh.origin[h]].push_back(h);
@@ -193,8 +203,7 @@ void FaceCurves::setGiven(std::vector<CurvePoint> points)
   }
   const std::vector<Index> ends = endsOnGiven();
   Index loops = 0;
-  std::vector<Index> next;
-  const std::vector<Index> loopOf = boundaryLoops(mesh_, loops, next);
+  const std::vector<Index> loopOf = boundaryLoops(nextOnBoundaries(mesh_), loops);
   std::vector<std::tuple<double, Index, std::size_t>> pairs; // the nearest first
   for (const Index h : ends)
   {

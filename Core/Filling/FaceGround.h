@@ -15,6 +15,14 @@
 namespace quadrille
 {
 
+/// Triangles of a mesh as one of their own; joined as they are there, sizes as there, no flags.
+struct TrianglesOfMesh
+{
+  Mesh mesh;
+  std::vector<Index> vertices; ///< which of the whole mesh's these are
+};
+TrianglesOfMesh partOf(const Mesh& whole, const std::vector<Index>& triangles);
+
 class FaceGround
 {
 public:

@@ -4,6 +4,7 @@
 
 #include "Base/Progress.h"
 #include "Filling/FaceFilling.h"
+#include "Filling/FaceGround.h"
 #include "Mesh/CutOpen.h"
 #include "Mesh/NearestTriangle.h"
 #include "Mesh/Sizing.h"
@@ -52,7 +53,7 @@ public:
     std::vector<std::size_t> around;
     for (std::vector<Index>& triangles : ofFace)
     {
-      opened.push_back(faceOf(std::move(triangles)));
+      opened.push_back({ partOf(opened_.mesh, triangles), std::move(triangles) });
       around.push_back(addLines(opened.back()));
     }
     joined_ = lines_;
@@ -69,10 +70,9 @@ public:
 
 private:
   /// Of the opened mesh.
-  struct OpenedFace
+  struct OpenedFace : TrianglesOfMesh
   {
-    Mesh mesh;
-    std::vector<Index> triangles, vertices; ///< which of the opened mesh's these are
+    std::vector<Index> triangles; ///< which of the opened mesh's these are
   };
 
   struct EdgePoint
@@ -203,45 +203,6 @@ private:
       before = point.t;
       v = m;
     }
-  }
-
-  OpenedFace faceOf(std::vector<Index> triangles) const
-  {
-    OpenedFace opened;
-    Mesh& face = opened.mesh;
-    std::map<Index, Index> newVertex, newFace;
-    std::vector<Index>& vertexOf = opened.vertices;
-    for (const Index f : triangles)
-    {
-      const auto id = static_cast<Index>(newFace.size());
-      newFace.emplace(f, id);
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        const Index v = opened_.mesh.origin[h];
-        if (newVertex.emplace(v, static_cast<Index>(vertexOf.size())).second)
-        {
-          vertexOf.push_back(v);
-          face.position.push_back(Vector3(opened_.mesh.position[v]));
-          if (!opened_.mesh.sizing.empty())
-          {
-            face.sizing.push_back(float{ opened_.mesh.sizing[v] });
-          }
-        }
-        face.origin.push_back(Index{ newVertex[v] });
-        face.flags.push_back(0);
-      }
-    }
-    for (const Index f : triangles)
-    {
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        const Index twin = opened_.mesh.twin[h];
-        face.twin.push_back(
-          twin == kInvalidIndex ? kInvalidIndex : 3 * newFace[Mesh::face(twin)] + twin % 3);
-      }
-    }
-    opened.triangles = std::move(triangles);
-    return opened;
   }
 
   void fill(const OpenedFace& opened)

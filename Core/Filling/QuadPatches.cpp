@@ -23,28 +23,6 @@ constexpr double kStraightCorner = 1e-4;
 
 using Quad = std::array<Index, 4>;
 
-Mesh meshOf(const Mesh& mesh, const std::vector<Index>& triangles)
-{
-  Mesh part;
-  std::map<Index, Index> own;
-  for (const Index f : triangles)
-  {
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
-    {
-      const auto [found, isNew] =
-        own.emplace(mesh.origin[h], static_cast<Index>(part.position.size()));
-      if (isNew)
-      {
-        part.position.push_back(Vector3(mesh.position[mesh.origin[h]]));
-      }
-      part.origin.push_back(Index{ found->second });
-      part.twin.push_back(Index{ kInvalidIndex });
-      part.flags.push_back(0);
-    }
-  }
-  return part;
-}
-
 } // namespace
 
 QuadScore scoreOf(const FaceQuads& mesh)
@@ -114,7 +92,7 @@ std::optional<QuadPatch> QuadPatches::around(Index q) const
   {
     return std::nullopt;
   }
-  patch.below = std::make_shared<const Mesh>(meshOf(mesh_, patch.triangles));
+  patch.below = std::make_shared<const Mesh>(partOf(mesh_, patch.triangles).mesh);
   patch.ground = std::make_shared<const FaceGround>(*patch.below);
   number(patch);
   return patch;

@@ -65,8 +65,7 @@ void requirePossible(const QuadProblem& problem)
     "there is no preview of symmetric quads: switch Preview or Symmetry off");
   refuseIf(problem.options.preview && problem.options.method == MapMethod::Seamless,
     "the method 'seamless' makes no quads, so there is nothing to preview: switch Preview off or "
-    "choose another "
-    "method");
+    "choose another method");
 }
 
 /// Why quads need the surface in one place, or the map on its triangles; empty: they do not.

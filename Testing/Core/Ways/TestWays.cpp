@@ -160,6 +160,19 @@ TEST(Ways, WhatNeedsTheWholeSurface)
   EXPECT_TRUE(has(reason([](QuadProblem& p) { p.thinning = Thinning::Never; }), "whole"));
 }
 
+namespace
+{
+
+PlacedConstraint moveOnSphere(const Vector3& from)
+{
+  PlacedConstraint move;
+  move.kind = ConstraintKind::Move;
+  move.path = { from, (from + 0.15 * from.unitOrthogonal()).normalized() };
+  return move;
+}
+
+} // namespace
+
 /// A move is made on the whole surface, from the quads that it has without.
 TEST(Ways, MovesHoldIrregularVerticesOnTheWholeSurface)
 {
@@ -173,10 +186,7 @@ TEST(Ways, MovesHoldIrregularVerticesOnTheWholeSurface)
   ASSERT_NE(irregular, valence.end());
   const Vector3 from =
     before.remeshed.quads.points[static_cast<std::size_t>(irregular - valence.begin())];
-  PlacedConstraint move;
-  move.kind = ConstraintKind::Move;
-  move.path = { from, (from + 0.15 * from.unitOrthogonal()).normalized() };
-  std::vector<PlacedConstraint> placed{ move };
+  std::vector<PlacedConstraint> placed{ moveOnSphere(from) };
   problem.placed = &placed;
   const QuadsMade made = expectWay(surface, Way::Whole, problem);
   EXPECT_EQ(made.whyNotThinned, "irregular vertices are held where they are on the whole surface");
@@ -199,10 +209,7 @@ TEST(Ways, MovesHaveAnImageToo)
     ASSERT_LT(irregular, quads.points.size());
   }
   const Vector3 from = quads.points[irregular];
-  PlacedConstraint move;
-  move.kind = ConstraintKind::Move;
-  move.path = { from, (from + 0.15 * from.unitOrthogonal()).normalized() };
-  std::vector<PlacedConstraint> placed{ move };
+  std::vector<PlacedConstraint> placed{ moveOnSphere(from) };
   problem.placed = &placed;
   const QuadsMade made = expectWay(surface, Way::Symmetric, problem);
   EXPECT_EQ(placed.front().whyNot, "");
