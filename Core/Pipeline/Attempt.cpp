@@ -197,42 +197,6 @@ bool carry(
   return true;
 }
 
-/// A few places that the transfer could not mend, with the vertices of the level between.
-void mendFewPlaces(
-  const RunContext& run, const Mesh& mesh, const Hierarchy& levels, MapAttempt& made)
-{
-  const double start = secondsNow();
-  const MendResult mended =
-    mendPatchesByLevels(mesh, made.uv, made.turns, levels.intermediate.fineVertex,
-      run.options.threads, subProgress(run.options.progress, 0.8, 0.9, "Mapping back: "));
-  made.transfer.mendedPatches += mended.patches;
-  made.transfer.notPositive = mended.notPositive;
-  std::vector<Index>& vertices = made.transfer.defectVertices;
-  vertices.clear();
-  for (const Index f : mended.defects)
-  {
-    vertices.insert(vertices.end(), &mesh.origin[3 * f], &mesh.origin[3 * f] + 3);
-  }
-  sortUnique(vertices);
-  made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
-  made.stages.add("replay", secondsNow() - start, made.coarse.mesh.faceCount(), mesh.faceCount());
-}
-
-/// Carries the map and mends it. False where nothing was carried.
-bool carryAndMend(
-  RunContext& run, const Mesh& mesh, const Hierarchy& levels, bool alongGuides, MapAttempt& made)
-{
-  if (!carry(run, mesh, levels, alongGuides, made))
-  {
-    return false;
-  }
-  if (run.options.method == MapMethod::ScaleAware && !made.transfer.defectVertices.empty())
-  {
-    mendFewPlaces(run, mesh, levels, made);
-  }
-  return true;
-}
-
 /// What carrying a map makes.
 struct CarriedParts
 {
@@ -256,7 +220,7 @@ void tryWithoutGuides(RunContext& run, const Mesh& mesh, const Hierarchy& levels
   const std::size_t defects = made.defects();
   CarriedParts along;
   along.swapWith(made);
-  carryAndMend(run, mesh, levels, false, made);
+  carry(run, mesh, levels, false, made);
   const bool isBetter = made.defects() < defects;
   if (!isBetter)
   {
@@ -441,9 +405,9 @@ void carryToSurface(
     made.integerVertex[made.coarse.fineVertex[v]] = made.coarseInteger[v];
   }
   const bool isScaleAware = run.options.method == MapMethod::ScaleAware;
-  if (!isScaleAware || !carryAndMend(run, mesh, levels, true, made))
+  if (!isScaleAware || !carry(run, mesh, levels, true, made))
   {
-    carryAndMend(run, mesh, levels, false, made);
+    carry(run, mesh, levels, false, made);
   }
   else if (!made.certificate.valid())
   {

@@ -6,7 +6,6 @@
 #include "Base/FixedPoint.h"
 #include "Mesh/Mesh.h"
 #include "Transfer/DefectSearch.h"
-#include "Transfer/PatchLevels.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +13,22 @@
 
 namespace quadrille
 {
+
+/// How a vertex of a patch may move.
+enum class PatchFreedom : std::uint8_t
+{
+  Fixed,
+  AlongU, ///< in the chart of its first corner
+  AlongV,
+  Plane
+};
+
+/// A corner of a vertex and the rotation from the chart of the first corner of its fan to its own.
+struct PatchCorner
+{
+  Index corner = 0; ///< of the mesh
+  int rotation = 0;
+};
 
 struct PatchVertex
 {

@@ -8,7 +8,6 @@
 #include "Numerics/Untangler.h"
 #include "Transfer/DefectSearch.h"
 #include "Transfer/MendedPatch.h"
-#include "Transfer/PatchLevels.h"
 #include "Transfer/PatchProblems.h"
 #include "Transfer/PatchRotations.h"
 
@@ -27,11 +26,6 @@ namespace
 /// Rings of faces round the inverted ones, in the order of the attempts.
 constexpr std::array<int, 4> kGrowth{ 2, 4, 8, 16 };
 constexpr std::size_t kMaximumPatchFaces = 10000;
-/// Vertices of the level between that a patch has that is solved by levels, the smallest one first, and its faces.
-constexpr std::array<std::size_t, 3> kVerticesOfLevels{ 16, 64, 256 };
-constexpr std::size_t kMaximumFacesOfLevels = 60000;
-/// More faces that are left of all patches have another cause.
-constexpr std::size_t kManySeedsOfLevels = 200;
 /// Faces times steps of the untangler: of one try, and of all tries besides half the faces of the mesh.
 constexpr std::size_t kWorkPerTry = 200000;
 constexpr std::size_t kMaximumWork = 5000000;
@@ -40,7 +34,6 @@ constexpr std::size_t kWorkOnMany = 1000000;
 constexpr std::size_t kManySeeds = 4000;
 constexpr std::size_t kLeastSteps = 30;
 constexpr std::size_t kMostUntanglingSteps = 250;
-constexpr int kSettlingSteps = 40;
 /// How often those at defects get more weight.
 constexpr int kTurnedRounds = 4;
 
@@ -49,8 +42,7 @@ enum class Energy
 {
   Shape,  ///< whichever way triangles are turned; where fewer defects are left
   Turned, ///< as those of the coarse map, which keep the rotation of their references; the same
-  Polish, ///< the first one from a map without defects; where it has none afterwards
-  Settle ///< the same for longer: from a level with few triangles shapes are farther from those of the surface
+  Polish  ///< the first one from a map without defects; where it has none afterwards
 };
 
 /// Counts what a try has made where that is used, and says whether it is.
@@ -60,64 +52,36 @@ bool hasLed(Try which, bool isUsed)
   return isUsed;
 }
 
-/// The tries of `act`, which no scope around it has counted.
-template <typename Act>
-TryCounts triesOf(const Act& act)
-{
-  TryScope scope;
-  act();
-  return scope.counts();
-}
-
-/// Counts such tries for the scope around after all, and that they have led only where what they made is used.
-void countAgain(const TryCounts& tries, bool isUsed)
-{
-  for (std::size_t i = 0; i < kTries; ++i)
-  {
-    countTry(static_cast<Try>(i), tries.taken[i]);
-    countTryLed(static_cast<Try>(i), isUsed ? tries.led[i] : 0);
-  }
-}
-
 class PatchMender
 {
 public:
   PatchMender(const Mesh& mesh, std::vector<FixedVec2>& uv, const std::vector<int>& expectedTurns,
     int threads)
-    : mesh_(mesh), uv_(uv), expectedTurns_(expectedTurns), threads_(threads),
-      defects_(mesh, uv, expectedTurns), patch_(mesh, uv, expectedTurns),
+    : mesh_(mesh), uv_(uv), threads_(threads), defects_(mesh, uv, expectedTurns), patch_(mesh, uv, expectedTurns),
       tried_(mesh.faceCount(), 0)
   {
   }
 
   MendResult run(const ProgressCallback& progress);
-  MendResult runByLevels(const std::vector<Index>& between, const ProgressCallback& progress);
-
-  /// Tries to mend a patch; true where it has no defects any more. work: what that took, faces times steps.
-  bool solve(const std::vector<Index>& patch, std::size_t& work);
 
 private:
   std::vector<Index> seedsLeft(std::vector<Index> seeds);
   bool mendAround(Index seed, int rings);
   MendResult resultOf(std::vector<Index> seeds, std::size_t patches) const;
-  bool mendWithLevels(Index seed, std::size_t vertices);
 
   PatchProblems problems() const { return { mesh_, uv_, patch_ }; }
   bool embedPatch(bool isWider);
   bool embedWhole();
   bool embedTurned();
-  bool embedByLevels();
   bool embedFrom(
-    const UntangleProblem& problem, const Eigen::VectorXd& start, Energy energy = Energy::Shape);
-  void embedShapes(Energy energy);
+    const UntangleProblem& problem, const Eigen::VectorXd& start, Energy energy);
+  void embedShapes();
 
   const Mesh& mesh_;
   std::vector<FixedVec2>& uv_;
-  const std::vector<int>& expectedTurns_;
   int threads_;
   DefectSearch defects_;
   MendedPatch patch_;
-  std::vector<std::uint8_t> isBetween_; ///< #V flags, or empty
   std::vector<std::uint8_t> tried_; ///< faces that were in a cluster of this growth, or touched one
   std::vector<Index> changed_;      ///< faces of the patches that were improved in this growth
   std::vector<Index> left_;         ///< vertices at the defects that the last try had in the end
@@ -193,70 +157,6 @@ bool PatchMender::mendAround(Index seed, int rings)
   return improved;
 }
 
-MendResult PatchMender::runByLevels(
-  const std::vector<Index>& between, const ProgressCallback& progress)
-{
-  std::vector<Index> seeds = defects_.find(threads_);
-  std::size_t patches = 0;
-  isBetween_.assign(mesh_.vertexCount(), 0);
-  for (const Index v : between)
-  {
-    isBetween_[v] = 1;
-  }
-  for (const std::size_t vertices : kVerticesOfLevels)
-  {
-    std::fill(tried_.begin(), tried_.end(), std::uint8_t{ 0 });
-    for (const Index f : seeds)
-    {
-      report(progress, 1, "mending the map");
-      if (tried_[f] == 0 && seeds.size() <= kManySeedsOfLevels && work_ < kMaximumWork)
-      {
-        patches += mendWithLevels(f, vertices) ? 1U : 0U;
-      }
-    }
-    seeds = seedsLeft(std::move(seeds));
-  }
-  return resultOf(std::move(seeds), patches);
-}
-
-bool PatchMender::mendWithLevels(Index seed, std::size_t vertices)
-{
-  patch_.beginAt(seed, kMaximumPatchFaces);
-  std::size_t inside = 0, before = 0;
-  do
-  {
-    before = patch_.faces().size();
-    patch_.grow(kMaximumFacesOfLevels);
-    inside = 0;
-    for (const Index f : patch_.faces())
-    {
-      tried_[f] = 1;
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        inside += isBetween_[mesh_.origin[h]];
-      }
-    }
-    // Each vertex has about six corners.
-  } while (inside < 6 * vertices && patch_.faces().size() < kMaximumFacesOfLevels &&
-    patch_.faces().size() > before);
-  bool improved = false;
-  if (patch_.faces().size() < kMaximumFacesOfLevels)
-  {
-    patch_.collectFans();
-    if (patch_.unknowns() > 0 && patch_.countDefects() > 0)
-    {
-      countTry(Try::MendedByLevels);
-      improved = hasLed(Try::MendedByLevels, embedByLevels());
-    }
-  }
-  if (improved)
-  {
-    changed_.insert(changed_.end(), patch_.faces().begin(), patch_.faces().end());
-  }
-  patch_.release();
-  return improved;
-}
-
 bool PatchMender::embedPatch(bool isWider)
 {
   patch_.collectFans();
@@ -272,81 +172,12 @@ bool PatchMender::embedPatch(bool isWider)
   return hasLed(Try::WiderPatch, embedWhole());
 }
 
-/// From the map as it is, and from others.
+/// By the shapes of the surface alone, and where that leaves defects with triangles that know how they are turned.
 bool PatchMender::embedWhole()
 {
-  const UntangleProblem problem = problems().make(PatchReference::Surface);
-  bool improved = embedFrom(problem, Eigen::VectorXd::Zero(patch_.unknowns()));
-  if (patch_.countDefects() > 0)
-  {
-    const UntangleProblem again = improved ? problems().make(PatchReference::Surface) : problem;
-    countTry(Try::HarmonicStart);
-    improved = hasLed(Try::HarmonicStart, embedFrom(again, harmonicStart(again))) || improved;
-  }
-  if (patch_.countDefects() > 0)
-  {
-    const UntangleProblem even = problems().make(PatchReference::Equilateral);
-    countTry(Try::EquilateralReferences);
-    improved = hasLed(Try::EquilateralReferences, embedFrom(even, harmonicStart(even))) || improved;
-  }
-  if (patch_.countDefects() > 0)
-  {
-    improved = embedTurned() || improved;
-  }
-  return improved;
-}
-
-bool PatchMender::solve(const std::vector<Index>& patch, std::size_t& work)
-{
-  patch_.begin(patch);
-  embedPatch(false);
-  work = work_;
-  return patch_.countDefects() == 0;
-}
-
-/// With fewer triangles first; what has come back then keeps its turns.
-bool PatchMender::embedByLevels()
-{
-  std::vector<PatchStar> stars;
-  for (const PatchVertex& vertex : patch_.vertices())
-  {
-    const PatchCorner* begin = patch_.fans().data() + vertex.firstFan;
-    stars.push_back({ vertex.freedom, isBetween_[mesh_.origin[begin->corner]] != 0, begin,
-      begin + vertex.fanCount });
-  }
-  const PatchSolver solver = [&](const Mesh& mesh, const std::vector<Index>& patch,
-                               const std::vector<int>& turns, std::vector<FixedVec2>& uv)
-  {
-    std::size_t work = 0;
-    bool solved = false;
-    const TryCounts tries =
-      triesOf([&]() { solved = PatchMender(mesh, uv, turns, 1).solve(patch, work); });
-    countAgain(tries, solved);
-    work_ += work;
-    return solved;
-  };
-  std::vector<FixedVec2> saved = patch_.corners();
-  double imageArea = 0;
-  PatchLevelsResult result;
-  const TryCounts tries = triesOf(
-    [&]()
-    {
-      result = solveByLevels(mesh_, patch_.faces(), stars, expectedTurns_,
-        problems().referenceScale(imageArea), solver, uv_);
-    });
-  work_ += result.work;
-  const bool isUsed = result.valid && patch_.countDefects() == 0;
-  countAgain(tries, isUsed);
-  if (!isUsed)
-  {
-    patch_.restore(saved);
-    return false;
-  }
-  if (patch_.faces().size() <= kMaximumPatchFaces)
-  {
-    embedShapes(Energy::Settle);
-  }
-  return true;
+  const bool isImproved =
+    embedFrom(problems().make(), Eigen::VectorXd::Zero(patch_.unknowns()), Energy::Shape);
+  return (patch_.countDefects() > 0 && embedTurned()) || isImproved;
 }
 
 /// Triangles that know how they are to be turned do not wind once less round an irregular vertex, and those near to
@@ -359,7 +190,7 @@ bool PatchMender::embedTurned()
   {
     return false;
   }
-  UntangleProblem problem = problems().make(PatchReference::Turned, rotations);
+  UntangleProblem problem = problems().make(rotations);
   const std::vector<double> nearness = problems().nearnessToFixed();
   for (std::size_t i = 0; i < patch_.faces().size(); ++i)
   {
@@ -378,18 +209,18 @@ bool PatchMender::embedTurned()
   if (improved && patch_.countDefects() == 0)
   {
     // From a valid map no vertex changes its winding.
-    embedShapes(Energy::Polish);
+    embedShapes();
   }
   return improved;
 }
 
 /// The surface's shapes, from a valid map.
-void PatchMender::embedShapes(Energy energy)
+void PatchMender::embedShapes()
 {
   countTry(Try::ShapesAgain);
   hasLed(Try::ShapesAgain,
-    embedFrom(
-      problems().make(PatchReference::Surface), Eigen::VectorXd::Zero(patch_.unknowns()), energy));
+    embedFrom(problems().make(), Eigen::VectorXd::Zero(patch_.unknowns()),
+      Energy::Polish));
 }
 
 bool PatchMender::embedFrom(
@@ -401,23 +232,17 @@ bool PatchMender::embedFrom(
     std::clamp(kWorkPerTry / patch_.faces().size(), kLeastSteps, kMostUntanglingSteps));
   UntangleOptions options;
   options.maximumSteps = steps;
-  const bool isValid = energy == Energy::Polish || energy == Energy::Settle;
   if (energy == Energy::Turned)
   {
     options = fieldUntangleOptions({});
     options.maximumSteps = std::min(options.maximumSteps, steps);
-  }
-  if (energy == Energy::Settle)
-  {
-    options.polishSteps = kSettlingSteps;
-    options.maximumSteps = kSettlingSteps;
   }
   const UntangleResult result = untangle(problem, start, options);
   work_ += patch_.faces().size() * static_cast<std::size_t>(result.steps);
   patch_.applyDisplacements(result.y);
   const std::size_t after = patch_.countDefects();
   left_ = patch_.defectVertices();
-  if (result.y.allFinite() && (isValid ? after == 0 : after < before))
+  if (result.y.allFinite() && (energy == Energy::Polish ? after == 0 : after < before))
   {
     return true;
   }
@@ -431,13 +256,6 @@ MendResult mendPatches(const Mesh& mesh, std::vector<FixedVec2>& uv,
   const std::vector<int>& expectedTurns, int threads, const ProgressCallback& progress)
 {
   return PatchMender(mesh, uv, expectedTurns, threads).run(progress);
-}
-
-MendResult mendPatchesByLevels(const Mesh& mesh, std::vector<FixedVec2>& uv,
-  const std::vector<int>& expectedTurns, const std::vector<Index>& between, int threads,
-  const ProgressCallback& progress)
-{
-  return PatchMender(mesh, uv, expectedTurns, threads).runByLevels(between, progress);
 }
 
 } // namespace quadrille

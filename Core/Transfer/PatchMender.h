@@ -38,12 +38,4 @@ struct MendResult
 MendResult mendPatches(const Mesh& mesh, std::vector<FixedVec2>& uv,
   const std::vector<int>& expectedTurns, int threads, const ProgressCallback& progress);
 
-/// What mendPatches has left, where that is little: larger patches are solved with fewer triangles (PatchLevels.h).
-/// between: vertices of the mesh that a level between has; what a replay has placed there is right more often than what
-/// lies between them, so these go last. A patch has so many of them that the whole point of an irregular vertex is
-/// inside, which may lie beside the vertex by hundreds of small triangles.
-MendResult mendPatchesByLevels(const Mesh& mesh, std::vector<FixedVec2>& uv,
-  const std::vector<int>& expectedTurns, const std::vector<Index>& between, int threads,
-  const ProgressCallback& progress);
-
 } // namespace quadrille

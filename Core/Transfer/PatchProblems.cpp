@@ -9,7 +9,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -26,13 +25,8 @@ namespace
 constexpr double kNearest = 1e-4;
 /// How much more weight those at defects get each time.
 constexpr double kStiffening = 10;
-
-Eigen::Matrix2d equilateral(double side)
-{
-  Eigen::Matrix2d edges;
-  edges << side, 0.5 * side, 0, 0.8660254037844386 * side;
-  return edges;
-}
+/// References flatter than this (2 area / longest edge squared) are replaced by equilateral ones.
+constexpr double kFlattestTriangle = 0.1;
 
 /// The displacement of unknown direction (1, 0) or (0, 1) in a corner's chart.
 Vector2 direction(bool alongU, int rotation)
@@ -43,17 +37,12 @@ Vector2 direction(bool alongU, int rotation)
 
 } // namespace
 
-UntangleProblem PatchProblems::make(
-  PatchReference reference, const std::vector<double>& rotations) const
+UntangleProblem PatchProblems::make(const std::vector<double>& rotations) const
 {
   // A point per corner, relative to its face's first corner: only differences inside a face matter.
   UntangleProblem problem;
   const int points = 3 * static_cast<int>(patch_.faces().size());
-  double imageArea = 0;
-  const double scale = referenceScale(imageArea);
-  const Eigen::Matrix2d uniform =
-    equilateral(std::sqrt(imageArea / (0.433 * static_cast<double>(patch_.faces().size()))))
-      .inverse();
+  const double scale = referenceScale();
   problem.offset = Eigen::VectorXd::Zero(2 * points);
   std::vector<Eigen::Triplet<double>> entries;
   const auto pointOf = [&](Index corner)
@@ -66,9 +55,8 @@ UntangleProblem PatchProblems::make(
     const Index f = patch_.faces()[i];
     const Index point = static_cast<Index>(3 * i);
     problem.triangles.push_back({ point, point + 1, point + 2 });
-    problem.inverseReference.push_back(
-      reference == PatchReference::Equilateral ? uniform : inverseReference(f, scale));
-    if (reference == PatchReference::Turned)
+    problem.inverseReference.push_back(inverseReference(f, scale));
+    if (!rotations.empty())
     {
       problem.inverseReference.back() *= Eigen::Rotation2Dd(-rotations[i]).toRotationMatrix();
     }
@@ -102,7 +90,7 @@ UntangleProblem PatchProblems::make(
   return problem;
 }
 
-double PatchProblems::referenceScale(double& imageArea) const
+double PatchProblems::referenceScale() const
 {
   // So that the references have as much area as the image: the area of the image does not change, as its
   // border stays.
@@ -115,15 +103,29 @@ double PatchProblems::referenceScale(double& imageArea) const
     const Vector2 b = toDouble(uv_[3 * f + 2] - uv_[3 * f]);
     image += 0.5 * parallelogram(a, b);
   }
-  imageArea = image > 0 ? image : std::max(area, 1e-12);
   return area > 0 && image > 0 ? std::sqrt(image / area) : 1.0;
 }
 
+/// Of the triangle laid out in the plane; where it is too flat for that, of an equilateral one.
 Eigen::Matrix2d PatchProblems::inverseReference(Index f, double scale) const
 {
   const Vector3 ab = scale * mesh_.edgeVector(3 * f);
   const Vector3 ac = -scale * mesh_.edgeVector(3 * f + 2);
-  return inverseOfTriangle(ab, ac);
+  const double longest = std::max({ ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm() });
+  const double doubled = ab.cross(ac).norm();
+  Eigen::Matrix2d reference;
+  if (doubled > kFlattestTriangle * longest)
+  {
+    const double length = ab.norm();
+    reference << length, ab.dot(ac) / length, 0, doubled / length;
+  }
+  else
+  {
+    // A tenth of the longest edge keeps the weight of a sliver small without letting it vanish.
+    const double side = 0.1 * std::sqrt(std::max(longest, 1e-12));
+    reference << side, 0.5 * side, 0, 0.8660254037844386 * side;
+  }
+  return reference.inverse();
 }
 
 std::vector<double> PatchProblems::nearnessToFixed() const
@@ -168,8 +170,7 @@ std::vector<double> PatchProblems::nearnessToFixed() const
 void PatchProblems::guardCurves(const std::vector<double>& rotations,
   const std::vector<double>& nearness, UntangleProblem& problem) const
 {
-  double imageArea = 0;
-  const double scale = referenceScale(imageArea);
+  const double scale = referenceScale();
   std::vector<Index> fixed;
   for (const PatchVertex& vertex : patch_.vertices())
   {
@@ -227,41 +228,6 @@ void PatchProblems::stiffen(const std::vector<Index>& vertices, UntangleProblem&
     }
     near = std::move(touched);
   }
-}
-
-Eigen::VectorXd harmonicStart(const UntangleProblem& problem)
-{
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t t = 0; t < problem.triangles.size(); ++t)
-  {
-    const Eigen::Matrix2d& inverse = problem.inverseReference[t];
-    // Rows: how each corner enters the two columns of J.
-    Eigen::Matrix<double, 3, 2> gradient;
-    gradient.row(1) = inverse.row(0);
-    gradient.row(2) = inverse.row(1);
-    gradient.row(0) = -inverse.row(0) - inverse.row(1);
-    const Eigen::Matrix3d stiffness = problem.weight[t] * gradient * gradient.transpose();
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        for (int axis = 0; axis < 2; ++axis)
-        {
-          entries.emplace_back(2 * static_cast<int>(problem.triangles[t][i]) + axis,
-            2 * static_cast<int>(problem.triangles[t][j]) + axis, stiffness(i, j));
-        }
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> energy(problem.offset.size(), problem.offset.size());
-  energy.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseMatrix<double> reduced = problem.basis.transpose() * energy * problem.basis;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(reduced);
-  if (solver.info() != Eigen::Success)
-  {
-    return Eigen::VectorXd::Zero(problem.basis.cols());
-  }
-  return solver.solve(-(problem.basis.transpose() * (energy * problem.offset)));
 }
 
 } // namespace quadrille

@@ -8,20 +8,10 @@
 #include "Numerics/Untangler.h"
 #include "Transfer/MendedPatch.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace quadrille
 {
-
-/// Which shapes the untangler aims at: those of the surface, or, where slivers keep it from converging, the same
-/// for all triangles.
-enum class PatchReference : std::uint8_t
-{
-  Surface,
-  Equilateral,
-  Turned ///< those of the surface, each turned as the map round the patch asks for
-};
 
 /// Of a patch with its fans, and of the map as it is whenever something is asked for.
 class PatchProblems
@@ -32,10 +22,8 @@ public:
   {
   }
 
-  /// rotations: per face, where the references are turned.
-  UntangleProblem make(PatchReference reference, const std::vector<double>& rotations = {}) const;
-  /// Of the map over the surface; imageArea: of the map.
-  double referenceScale(double& imageArea) const;
+  /// Towards the shapes of the surface. rotations: per face, where these are turned as the map round the patch asks for.
+  UntangleProblem make(const std::vector<double>& rotations = {}) const;
 
   /// Per face, one over its squared distance from the nearest vertex inside the patch that stays, in patch sizes.
   std::vector<double> nearnessToFixed() const;
@@ -46,14 +34,13 @@ public:
   void stiffen(const std::vector<Index>& vertices, UntangleProblem& problem) const;
 
 private:
+  /// Of the map over the surface.
+  double referenceScale() const;
   Eigen::Matrix2d inverseReference(Index f, double scale) const;
 
   const Mesh& mesh_;
   const std::vector<FixedVec2>& uv_;
   const MendedPatch& patch_;
 };
-
-/// The displacements of least Dirichlet energy: no valid map yet, but one that has forgotten any wrong winding.
-Eigen::VectorXd harmonicStart(const UntangleProblem& problem);
 
 } // namespace quadrille
