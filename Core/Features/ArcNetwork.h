@@ -21,7 +21,6 @@ struct NetworkArc
   std::array<Index, 2> ends{};  ///< nodes
   double length = 0;            ///< in edge lengths of the quads there
   bool removable = true;
-  bool yields = true; ///< kYieldingFeature all along
 };
 
 /// Constrained edges as arcs between nodes. Closed curves without nodes are none.

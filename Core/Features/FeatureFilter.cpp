@@ -423,32 +423,6 @@ bool removeOnce(Mesh& mesh, double edgeLength, double thinnest, const std::vecto
       dropAlongThinPatches(mesh, thinnest, chains, report));
 }
 
-/// One half-edge of each feature that `isOne` says so of and that comes closer than `radius` to one of the points.
-std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& points, double radius,
-  bool (*isOne)(const Mesh&, Index))
-{
-  if (!(radius > 0))
-  {
-    throw InvalidInput("the radius for removing features must be positive");
-  }
-  std::vector<Index> found;
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (!isOne(mesh, h))
-    {
-      continue;
-    }
-    const Vector3& a = mesh.position[mesh.origin[h]];
-    const Vector3& b = mesh.position[mesh.target(h)];
-    if (std::any_of(points.begin(), points.end(),
-          [&](const Vector3& p) { return distanceToSegment(p, a, b) < radius; }))
-    {
-      found.push_back(h);
-    }
-  }
-  return found;
-}
-
 } // namespace
 
 FeatureFilterReport removeUnresolvedFeatures(
@@ -484,33 +458,36 @@ bool isDetectedFeature(const Mesh& mesh, Index h)
     (mesh.flags[h] & kRequestedFeature) == 0;
 }
 
-std::vector<Index> detectedFeaturesNear(
-  const Mesh& mesh, const std::vector<Vector3>& points, double radius)
+bool mayBeGivenUp(const Mesh& mesh, Index h)
 {
-  return featuresNear(mesh, points, radius, isDetectedFeature);
+  return isDetectedFeature(mesh, h) ||
+    (mesh.isFeature(h) && !mesh.isBoundary(h) && h < mesh.twin[h] &&
+      (mesh.flags[h] & kYieldingFeature) != 0);
 }
 
-bool isYieldingFeature(const Mesh& mesh, Index h)
+std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& points, double radius,
+  bool (*isOne)(const Mesh&, Index))
 {
-  return mesh.isFeature(h) && !mesh.isBoundary(h) && h < mesh.twin[h] &&
-    (mesh.flags[h] & kYieldingFeature) != 0;
-}
-
-std::vector<Index> yieldingFeaturesNear(
-  const Mesh& mesh, const std::vector<Vector3>& points, double radius)
-{
-  return featuresNear(mesh, points, radius, isYieldingFeature);
-}
-
-void markYielding(Mesh& mesh, const std::vector<Index>& halfEdges)
-{
-  for (const Index h : halfEdges)
+  if (!(radius > 0))
   {
-    for (const Index side : { h, mesh.twin[h] })
+    throw InvalidInput("the radius for removing features must be positive");
+  }
+  std::vector<Index> found;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!isOne(mesh, h))
     {
-      mesh.flags.edit()[side] |= kFeatureEdge | kRequestedFeature | kYieldingFeature;
+      continue;
+    }
+    const Vector3& a = mesh.position[mesh.origin[h]];
+    const Vector3& b = mesh.position[mesh.target(h)];
+    if (std::any_of(points.begin(), points.end(),
+          [&](const Vector3& p) { return distanceToSegment(p, a, b) < radius; }))
+    {
+      found.push_back(h);
     }
   }
+  return found;
 }
 
 std::string inEdgeLengths(double length)

@@ -31,21 +31,13 @@ FeatureFilterReport removeUnresolvedFeatures(
 bool hasDetectedFeature(const Mesh& mesh);
 /// Whether h is that half-edge of a feature that stands for it, and nobody asked for the feature (kRequestedFeature).
 bool isDetectedFeature(const Mesh& mesh, Index h);
-/// One half-edge of each feature that nobody asked for (without kRequestedFeature) and that comes closer than `radius`
-/// to one of the points. Throws InvalidInput when radius is not positive.
-std::vector<Index> detectedFeaturesNear(
-  const Mesh& mesh, const std::vector<Vector3>& points, double radius);
-
-/// Whether h is that half-edge of a feature that stands for it, and the feature may be given up though it was asked for
-/// (kYieldingFeature).
-bool isYieldingFeature(const Mesh& mesh, Index h);
-/// One half-edge of each of these that comes closer than `radius` to one of the points. Throws InvalidInput when radius
-/// is not positive.
-std::vector<Index> yieldingFeaturesNear(
-  const Mesh& mesh, const std::vector<Vector3>& points, double radius);
-
-/// These half-edges and their twins become features that were asked for and yield. They must not be on the boundary.
-void markYielding(Mesh& mesh, const std::vector<Index>& halfEdges);
+/// The same of a feature that may be given up for the sake of a map: a detected one, or one that was asked for and
+/// yields (kYieldingFeature).
+bool mayBeGivenUp(const Mesh& mesh, Index h);
+/// The half-edges that stand for features of which `isOne` says so and that come closer than `radius` to one of the
+/// points. Throws InvalidInput when radius is not positive.
+std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& points, double radius,
+  bool (*isOne)(const Mesh&, Index));
 
 /// A length of features as messages tell it, to two or three digits.
 std::string inEdgeLengths(double length);

@@ -46,26 +46,6 @@ struct NetworkReport
 NetworkReport simplifyFeatureNetwork(
   Mesh& mesh, double edgeLength, bool isDesigned, FeatureFilterReport& filtered);
 
-/// What mergeNearJunctions has changed, one half-edge of each edge.
-struct MovedFeatures
-{
-  std::vector<Index> off, on;
-  std::size_t junctions = 0;       ///< that went
-  Vector3 place = Vector3::Zero(); ///< where the first one was
-};
-
-/// Where an arc shorter than kShortestArc s ends at a junction of three curves of which one that yields
-/// (kYieldingFeature) branches off, that branch is led to the other end of the arc, over edges of the mesh in which no
-/// feature has a part, from at most 1.5 s away:
-///
-///        |                |
-///   -----A--B---    ->  --A------      Two curves that end next to each other at another one, on either side, would
-///           |              \           take at least a quad between them; here they cross it at one point, and are no
-///           |               |          farther from where they were than that.
-///
-/// Shortest arcs first, each vertex once. Throws InvalidInput unless edgeLength is positive.
-MovedFeatures mergeNearJunctions(Mesh& mesh, double edgeLength);
-
 /// Of all features, boundaries aside, in edge lengths of the quads there.
 double lengthOfFeatures(const Mesh& mesh, double edgeLength);
 

@@ -437,32 +437,6 @@ void keepMap(const RunContext& run, const Mesh& surface, MapAttempt& map)
   run.store->put(map.key, std::move(kept), bytes);
 }
 
-std::optional<GridDefects> gridDefects(const RunContext& run, const MapAttempt& map)
-{
-  if (map.coarseUv.empty() || !map.coarseCertificate.valid())
-  {
-    return std::nullopt;
-  }
-  ExtractionOptions options;
-  options.maximumNumberOfQuads = run.options.maximumNumberOfQuads;
-  options.smoothingSteps = 0;
-  options.threads = run.options.threads;
-  const ExtractionResult coarse = extractQuads(map.coarse.mesh, map.coarseUv, options);
-  if (coarse.status.ok() || coarse.status.code == StatusCode::TooLarge)
-  {
-    return std::nullopt;
-  }
-  const QuadTopology topology = analyzeQuads(coarse.mesh.quads, coarse.mesh.points.size());
-  GridDefects found;
-  found.count = coarse.droppedFaces + topology.nonManifoldEdges + topology.nonManifoldVertices +
-    topology.degenerateQuads;
-  for (const Index p : topology.defectPoints)
-  {
-    found.places.push_back(coarse.mesh.points[p]);
-  }
-  return found;
-}
-
 std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices)
 {
   std::vector<Vector3> points;

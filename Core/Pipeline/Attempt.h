@@ -150,11 +150,6 @@ std::shared_ptr<const QuadAttempt> makeQuads(
 std::shared_ptr<const QuadAttempt> makePreview(
   RunContext& run, const PlannedSurface& surface, const Plan& plan, const MapAttempt& map);
 
-/// Where quads of the coarse map touch themselves: round a small handle or a thin part, where a loop is one or two
-/// quads long, that shows on the coarse map already, and only smaller quads can help. None where this is not the cause
-/// of a failure.
-std::optional<GridDefects> gridDefects(const RunContext& run, const MapAttempt& map);
-
 /// Positions of vertices.
 std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices);
 

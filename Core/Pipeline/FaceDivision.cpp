@@ -36,28 +36,17 @@ constexpr double kSameBoundary = 1e-6;
 /// Quads get so many strips at most.
 constexpr std::size_t kMostStrips = 100;
 
+bool yields(std::uint8_t flags)
+{
+  return (flags & kYieldingFeature) != 0;
+}
+
 std::vector<Index> faceLabels(const Mesh& mesh)
 {
   Mesh opened = mesh;
   cutOpenAtFeatures(opened);
   Index count = 0;
   return faceComponents(opened, count);
-}
-
-/// Whether a designed surface has several faces, and nothing is asked for that quads without a map may not have. Guides
-/// and sizes are wishes, which filled faces need not follow.
-bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
-{
-  const bool isAsked = !surface.valenceRequests.empty() || !surface.sectorRequests.empty() ||
-    !surface.curves.empty() || !surface.seams.empty() || !surface.straight.empty() ||
-    surface.regularElsewhere || surface.regularOnFeatures;
-  if (isAsked || !surface.facets.isDesigned || options.preview ||
-    options.method != MapMethod::ScaleAware)
-  {
-    return false;
-  }
-  const std::vector<Index> labels = faceLabels(surface.mesh);
-  return std::any_of(labels.begin(), labels.end(), [](Index label) { return label > 0; });
 }
 
 /// Of the two faces at an edge the one with less area.
@@ -376,10 +365,30 @@ private:
 
 } // namespace
 
+bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
+{
+  const bool isAsked = !surface.valenceRequests.empty() || !surface.sectorRequests.empty() ||
+    !surface.curves.empty() || !surface.seams.empty() || !surface.straight.empty() ||
+    surface.regularElsewhere || surface.regularOnFeatures;
+  // Features that a user marks may be far finer than quads, which only he can know to be meant.
+  const bool isMarked = !surface.facets.isDesigned &&
+    std::any_of(surface.mesh.flags.begin(), surface.mesh.flags.end(),
+      [](std::uint8_t flags) { return (flags & kRequestedFeature) != 0 && !yields(flags); });
+  if (isAsked || isMarked || options.preview || options.method != MapMethod::ScaleAware)
+  {
+    return false;
+  }
+  const std::vector<Index> labels = faceLabels(surface.mesh);
+  return std::any_of(labels.begin(), labels.end(), [](Index label) { return label > 0; });
+}
+
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history)
 {
-  return !history.hasResult() && !isTooLarge(history.last()) && mayCutFaces(surface, options);
+  const auto hasPatches = [&]
+  { return std::any_of(surface.mesh.flags.begin(), surface.mesh.flags.end(), yields); };
+  return !history.hasResult() && !isTooLarge(history.last()) &&
+    (surface.facets.isDesigned || hasPatches()) && mayCutFaces(surface, options);
 }
 
 double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed)

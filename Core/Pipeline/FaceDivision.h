@@ -26,8 +26,11 @@ struct CutFaces
   std::optional<SizedPart> rest; ///< none where these are all
 };
 
-/// Whether attempts on a surface have no quads yet, and its faces can be filled without a map: those of a designed
-/// surface, where nothing is asked for that such quads may not have. Then no feature is given up for a map.
+/// Whether features cut a surface into several faces, and nothing is asked for that quads without a map may not have
+/// (guides and sizes are wishes, which filled faces need not follow), nor are features of a scan marked that never yield.
+bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options);
+/// Whether attempts on such a surface have no quads yet, and it is designed, or has patches: no feature is given up for
+/// a map there. On others, whose features are those of a scan, features near a failure go first.
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history);
 /// The area of the faces in which a map has failed over that of the surface.

@@ -12,7 +12,7 @@ namespace
 
 std::size_t bytesOfLoops(const ShortLoops& found)
 {
-  std::size_t bytes = sizeof(ShortLoops) + bytesOf(found.hopelessPlaces);
+  std::size_t bytes = sizeof(ShortLoops);
   for (const HandleLoop& loop : found.loops)
   {
     bytes += bytesOf(loop.vertices);

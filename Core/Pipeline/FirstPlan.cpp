@@ -18,10 +18,26 @@ namespace quadrille
 namespace
 {
 
-/// So many quads are made to fit round a loop that is too short for three, if they need not be smaller than this for
-/// it.
+/// Where smaller quads make their number grow by more than this factor they may as well be smaller everywhere.
+constexpr double kMostGrowth = 1.6;
+/// So many quads are made to fit round a loop that is too short for three.
 constexpr double kQuadsOfShrunkLoop = 4;
-constexpr double kLeastShrink = 0.1;
+
+/// #V, 1 away from the loops: sizes, as multiples of edgeLength, with which four quads fit round each loop.
+std::vector<float> sizesOfLoops(
+  const std::vector<HandleLoop>& loops, double edgeLength, Index vertexCount)
+{
+  std::vector<float> sizes(vertexCount, 1.0F);
+  for (const HandleLoop& loop : loops)
+  {
+    const double wanted = loop.length / (kQuadsOfShrunkLoop * edgeLength);
+    for (const Index v : loop.vertices)
+    {
+      sizes[v] = std::min(sizes[v], static_cast<float>(std::max(kLeastShrink, wanted)));
+    }
+  }
+  return sizes;
+}
 
 /// Null: they would make too many quads.
 struct FirstSizes
@@ -42,8 +58,7 @@ double mostGrowth(const RunContext& run)
 FirstSizes makeFirstSizes(const RunContext& run, const std::vector<HandleLoop>& loops)
 {
   Mesh mesh = run.surface->mesh;
-  const std::vector<float> factor =
-    sizesOfLoops(loops, run.edgeLength, kLeastShrink, mesh.vertexCount());
+  const std::vector<float> factor = sizesOfLoops(loops, run.edgeLength, mesh.vertexCount());
   mesh.sizing.resize(mesh.vertexCount(), 1.0F);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
@@ -72,13 +87,13 @@ std::shared_ptr<const std::vector<float>> sizesAtLoops(
     ->sizes;
 }
 
+} // namespace
+
 bool mayResolve(const RemeshOptions& options)
 {
   return options.smallDetails != SmallDetails::Keep && !options.coarsestIntegers &&
     options.method == MapMethod::ScaleAware;
 }
-
-} // namespace
 
 bool resolvesLoops(const RunContext& run, const std::vector<HandleLoop>& loops, double most)
 {
@@ -88,28 +103,6 @@ bool resolvesLoops(const RunContext& run, const std::vector<HandleLoop>& loops, 
   }
   const auto sizes = mayResolve(run.options) ? sizesAtLoops(run, loops) : nullptr;
   return sizes && areaOverSizes(*run.surface, *sizes) <= most * areaOverSizes(*run.surface);
-}
-
-std::vector<float> sizesOfLoops(
-  const std::vector<HandleLoop>& loops, double edgeLength, double least, Index vertexCount)
-{
-  std::vector<float> sizes(vertexCount, 1.0F);
-  for (const HandleLoop& loop : loops)
-  {
-    const double wanted = loop.length / (kQuadsOfShrunkLoop * edgeLength);
-    for (const Index v : loop.vertices)
-    {
-      sizes[v] = std::min(sizes[v], static_cast<float>(std::max(least, wanted)));
-    }
-  }
-  return sizes;
-}
-
-double quadsFor(const RunContext& run, const Plan& plan, double sizedArea)
-{
-  const FinerGrid& finer = plan.finer;
-  const double local = finer.areaBefore > 0 && finer.mayShrink ? sizedArea / finer.areaBefore : 1;
-  return static_cast<double>(run.targetQuads) * std::pow(2.0, finer.doublings) * local;
 }
 
 LevelPlan firstLevels(const RunContext& run)
@@ -136,7 +129,7 @@ Plan firstPlan(RunContext& run)
   Plan plan;
   plan.levels = firstLevels(run);
   plan.nextLevels = plan.levels;
-  plan.quads = quadsFor(run, plan, 0);
+  plan.quads = static_cast<double>(run.targetQuads);
   const std::vector<HandleLoop>& loops = run.shortLoops.loops;
   if (loops.empty() || !mayResolve(run.options))
   {
@@ -152,7 +145,7 @@ Plan firstPlan(RunContext& run)
   {
     // With the same number of quads all others would be so much larger that there were other short loops.
     run.targetQuads = static_cast<std::size_t>(std::llround(growth * plan.quads));
-    plan.quads = quadsFor(run, plan, 0);
+    plan.quads = static_cast<double>(run.targetQuads);
   }
   plan.notices.push_back("quads are made smaller round " + std::to_string(loops.size()) +
     " handles and holes that are shorter round than three of the wanted size, one of them near " +

@@ -76,9 +76,7 @@ bool isMatterOfFeatures(const AttemptFailure& failure)
 {
   const std::vector<Vector3>& places = failure.attempt.map->failedPlaces;
   return leavesNoArea(*failure.attempt.map) &&
-    (!featuresNear(failure, dropsAt(failure, places)).empty() ||
-      (failure.attempt.plan.borderDrops > 0 &&
-        !yieldingFeaturesNear(failure.surface->mesh, places, failure.run.edgeLength).empty()));
+    !featuresNear(failure, dropsAt(failure, places)).empty();
 }
 
 } // namespace

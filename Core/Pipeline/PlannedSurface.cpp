@@ -69,7 +69,7 @@ PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, Resul
 
 PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int threads)
 {
-  if (!plan.sizes && !plan.featuresGivenUp && !plan.moved)
+  if (!plan.sizes && !plan.featuresGivenUp)
   {
     return surface;
   }
@@ -77,21 +77,11 @@ PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int thr
   Mesh& mesh = planned.mesh;
   KeyMaker key(surface.key);
   KeyMaker stars(surface.starsKey);
-  if (plan.moved)
-  {
-    markYielding(mesh, plan.moved->on);
-    unmarkFeatures(mesh, plan.moved->off);
-    key.add(plan.moved->off, plan.moved->on);
-    stars.add(plan.moved->off, plan.moved->on);
-  }
   if (plan.featuresGivenUp)
   {
     unmarkFeatures(mesh, *plan.featuresGivenUp);
     key.add(*plan.featuresGivenUp);
     stars.add(*plan.featuresGivenUp);
-  }
-  if (plan.moved || plan.featuresGivenUp)
-  {
     planned.hash = contentHash(mesh, threads);
   }
   const ResultKey keyWithoutSizes = key.key();

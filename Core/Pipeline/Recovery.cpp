@@ -25,17 +25,14 @@ constexpr std::array<Strategy, 3> kForMaps{ {
   { Try::RoomForCurves, 1, roomForCurves },
   { Try::KeptDefects, 2, keptDefects },
 } };
-constexpr std::array<Strategy, 4> kForRounds{ {
-  { Try::SmallerQuadsNear, 4, smallerQuadsNear },
-  { Try::MoreQuads, 3, moreQuads },
-  { Try::FewerBorders, kMostBorderDrops, fewerBorders },
+constexpr std::array<Strategy, 2> kForRounds{ {
+  { Try::MoreQuads, 1, moreQuads },
   { Try::FewerFeatures, kMostFeatureDrops, fewerFeatures },
 } };
 
 /// Where no round has quads and none of the others is left, or may be tried any more.
-constexpr std::array<Strategy, 2> kLastResort{ {
+constexpr std::array<Strategy, 1> kLastResort{ {
   { Try::CoarserFeatures, 2, coarserFeatures },
-  { Try::NoBorders, 2, noBorders },
 } };
 
 /// What is wrong with an attempt, in a few words.
@@ -94,7 +91,7 @@ std::optional<Plan> nextMapPlan(RunContext& run, const History& history)
   }
   const Attempt& attempt = history.last();
   AttemptFailure failure{ run, history, attempt,
-    withPlan(run.surface, attempt.plan, run.options.threads), {}, true, {}, 0 };
+    withPlan(run.surface, attempt.plan, run.options.threads), {}, true, 0 };
   return firstOffer(kForMaps, failure);
 }
 
@@ -109,13 +106,9 @@ std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLas
     return std::nullopt;
   }
   AttemptFailure failure{ run, history, attempt,
-    withPlan(run.surface, attempt.plan, run.options.threads), {}, !hasQuads, {}, 0 };
+    withPlan(run.surface, attempt.plan, run.options.threads), {}, !hasQuads, 0 };
   failure.places = mapped ? positionsOf(run.surface->mesh, attempt.map->transfer.defectVertices)
                           : attempt.map->failedPlaces;
-  if (failure.withoutQuads)
-  {
-    failure.grid = gridDefects(run, *attempt.map);
-  }
   std::optional<Plan> plan;
   if (!history.isSpent())
   {

@@ -64,20 +64,4 @@ std::optional<Restart> withoutRest(Settled& settled, SizedSurface& sized,
     Try::FewerDetails, isOther };
 }
 
-std::optional<Restart> withYieldingBorders(
-  const Settled& settled, const SizedSurface& sized, const Plan& first, const History& before)
-{
-  if (!settled.status.ok() || isTooLarge(before.last()))
-  {
-    return std::nullopt;
-  }
-  std::optional<Plan> plan = withFewerBorders(*settled.run, first, {});
-  if (!plan)
-  {
-    return std::nullopt;
-  }
-  setStep(*plan, Try::FewerBorders);
-  return Restart{ std::move(*plan), History(boundOf(sized)), Try::BordersYield };
-}
-
 } // namespace quadrille

@@ -32,8 +32,4 @@ History firstHistory(
 std::optional<Restart> withoutRest(Settled& settled, SizedSurface& sized,
   const RemeshOptions& options, ResultStore* store, Plan& first, const History& before);
 
-/// With borders of patches that give way, as many attempts as before; none where nothing yields.
-std::optional<Restart> withYieldingBorders(
-  const Settled& settled, const SizedSurface& sized, const Plan& first, const History& before);
-
 } // namespace quadrille

@@ -17,6 +17,7 @@
 #include "Pipeline/Recovery.h"
 #include "Pipeline/Restarts.h"
 #include "Pipeline/RunResult.h"
+#include "Pipeline/Strategies.h"
 #include "Quads/QuadSmoothing.h"
 #include "Quads/QuadUntangling.h"
 
@@ -100,8 +101,10 @@ void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> 
   {
     const auto next = [&]
     {
-      return isLeftToParts(sized, run.options, history) ? std::nullopt
-                                                        : nextPlan(run, history, isLast);
+      return isLeftToParts(sized, run.options, history)
+        ? std::nullopt
+        : nextPlan(run, history,
+            isLast && !history.hasResult() && !mayCutFaces(*sized.surface, run.options));
     };
     const auto nextMap = [&]
     {
@@ -169,10 +172,6 @@ History makeAttempts(Settled& settled, SizedSurface& sized, const RemeshOptions&
   if (!isOver())
   {
     beginAgain(withoutRest(settled, sized, options, store, first, history));
-  }
-  if (!isOver())
-  {
-    beginAgain(withYieldingBorders(settled, sized, first, history));
   }
   return history;
 }
@@ -375,7 +374,8 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   RunContext& run = *settled.run;
   run.levels.letGo();
   const bool isInParts = isDivided(sized, history);
-  const bool failed = isInParts || isCutAtFaces(*sized.surface, options, history);
+  const bool failed = isInParts ||
+    (!history.hasResult() && !isTooLarge(history.last()) && mayCutFaces(*sized.surface, options));
   if (failed)
   {
     history.packMaps(sized.surface->mesh);

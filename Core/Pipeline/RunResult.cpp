@@ -90,10 +90,8 @@ void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& res
   const std::string holes = tinyHolesText(result.smallParts, size);
   tell({ handles, holes }, result.notices);
   tell(attempt.plan.notices, result.notices);
-  tell({ attempt.plan.borderNotice }, result.notices);
   tell(attempt.map->notices, result.notices);
   tell(attempt.quads ? attempt.quads->notices : std::vector<std::string>{}, result.notices);
-  tell({ result.status.ok() ? attempt.plan.finer.notice : "" }, result.notices);
   for (const std::string& unresolved : { handles, holes })
   {
     if (!result.status.ok() && !unresolved.empty())

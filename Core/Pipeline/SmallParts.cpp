@@ -16,8 +16,6 @@ namespace quadrille
 namespace
 {
 
-/// Handles with loops below so many edge lengths are sure to be among the places where quads meet themselves.
-constexpr double kHopelessLoop = 2;
 /// Loops of up to so many times the length that decides are measured on the finest mesh.
 constexpr double kMostTightened = 2;
 
@@ -50,20 +48,14 @@ void tighten(std::vector<HandleLoop>& loops, const Level& level, const Mesh& fin
   }
 }
 
-void collectHandles(
-  const HandleReport& found, const Level& level, double edgeLength, ShortLoops& loops)
+void collectHandles(const HandleReport& found, const Level& level, ShortLoops& loops)
 {
   for (const HandleLoop& loop : found.loops)
   {
-    const bool hopeless = loop.length < kHopelessLoop * edgeLength;
     HandleLoop onSurface{ {}, loop.length };
     for (const Index v : loop.vertices)
     {
       onSurface.vertices.push_back(level.fineVertex[v]);
-      if (hopeless)
-      {
-        loops.hopelessPlaces.push_back(level.mesh.position[v]);
-      }
     }
     loops.loops.push_back(std::move(onSurface));
   }
@@ -102,7 +94,7 @@ ShortLoops measureSmallParts(
   parts.handles = found.handles;
   parts.unresolvedHandles = found.loops.size();
   parts.complete = found.complete;
-  collectHandles(found, intermediate, edgeLength, loops);
+  collectHandles(found, intermediate, loops);
   if (found.shortest)
   {
     parts.shortestLoop = found.shortest->length;

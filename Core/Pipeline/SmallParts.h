@@ -39,8 +39,6 @@ struct ShortLoops
 {
   SmallParts parts;
   std::vector<HandleLoop> loops; ///< round handles and holes, shorter than kQuadsOfLoop s
-  /// On the loops of handles that are so short that quads there are sure to meet themselves.
-  std::vector<Vector3> hopelessPlaces;
 };
 
 /// edgeLength: s, in units of the meshes. Loops that might be short enough to be cut are measured on the finest mesh,

@@ -14,9 +14,8 @@
 namespace quadrille
 {
 
-/// How often features are given up for quads that are inverted, and borders of patches.
+/// How often features are given up for quads that are inverted.
 constexpr std::size_t kMostFeatureDrops = 4;
-constexpr std::size_t kMostBorderDrops = 6;
 
 /// What there is to mend: an attempt without quads, or with some that are inverted at folds of its map.
 struct AttemptFailure
@@ -27,8 +26,7 @@ struct AttemptFailure
   PlannedSurface surface;      ///< by its plan
   std::vector<Vector3> places; ///< where the map or its quads failed
   bool withoutQuads = true;    ///< else some of them are inverted
-  std::optional<GridDefects> grid;
-  std::size_t bound = 0; ///< of the strategy that is asked
+  std::size_t bound = 0;       ///< of the strategy that is asked
 };
 
 // For another map of the same round.
@@ -50,38 +48,22 @@ std::optional<Plan> keptDefects(const AttemptFailure& failure);
 
 // For another round.
 
-/// Where quads of the coarse map touch themselves: smaller quads there. Bound: times one after the other.
-std::optional<Plan> smallerQuadsNear(const AttemptFailure& failure);
-
-/// Where smaller quads near the places do not do: twice as many everywhere. Bound: times one after the other.
+/// Where loops round handles or holes are too short for three quads: as many quads everywhere as go three times round
+/// the shortest one, eight times as many as were asked for at most, or with edges down to kLeastShrink where details are
+/// to be resolved. Bound: times.
 std::optional<Plan> moreQuads(const AttemptFailure& failure);
 
-/// Features that only the dihedral angle asked for are given up near the places of a failure, twice as far as the last
-/// time where a place fails again, and after a failure so far that there are some; or near folds at which quads are
-/// inverted. Bound: times in all, for quads that are inverted.
+/// Features that may be given up (see mayBeGivenUp) are, near the places of a failure, twice as far as the last time
+/// where a place fails again, and after a failure so far that there are some; or those that only the dihedral angle
+/// asked for, near folds at which quads are inverted. Bound: times in all, for quads that are inverted.
 std::optional<Plan> fewerFeatures(const AttemptFailure& failure);
 
-/// After a failure, features that were asked for but yield (kYieldingFeature), borders of patches, change: first those
-/// whose junctions are too near to each other are led together, then those are given up that quads of this size cannot
-/// resolve, by the rules for detected ones, then those near the places of the failure, then those that larger quads
-/// could not resolve. Only after a plan of withFewerBorders, with which attempts begin again where none has had quads
-/// with all borders. Bound: times in all.
-std::optional<Plan> fewerBorders(const AttemptFailure& failure);
-/// The next of these steps of a plan; none where nothing yields. places: of the failure.
-std::optional<Plan> withFewerBorders(
-  const RunContext& run, const Plan& before, const std::vector<Vector3>& places);
-
-/// Where nothing else has led to quads: the features that only the dihedral angle asked for and that quads four times
-/// as large could not follow (see removeUnresolvedFeatures) are given up, and the next time all of them. Bound: times
-/// in all.
+/// Where nothing else has led to quads: of the features that may be given up those go that quads four times as large
+/// could not follow (see removeUnresolvedFeatures), and the next time all. Bound: times in all.
 std::optional<Plan> coarserFeatures(const AttemptFailure& failure);
 
 /// The plan of coarserFeatures; none where there is no such feature.
 std::optional<Plan> withCoarserFeatures(const RunContext& run, const Plan& before);
-
-/// Where that has not led to quads either: features that yield are given up but for long ones far from each other, and
-/// then all. Bound: times in all.
-std::optional<Plan> noBorders(const AttemptFailure& failure);
 
 /// Calls the plan by what has made it.
 void setStep(Plan& plan, Try which);

@@ -22,7 +22,7 @@ public:
   {
   }
 
-  /// Towards the shapes of the surface. rotations: per face, where these are turned as the map round the patch asks for.
+  /// Towards the shapes of the surface. rotations: per face, where these are turned as the map round the patch asks.
   UntangleProblem make(const std::vector<double>& rotations = {}) const;
 
   /// Per face, one over its squared distance from the nearest vertex inside the patch that stays, in patch sizes.

@@ -712,9 +712,10 @@ TEST(ConformingParts, BoxesCutByPlanesConform)
   }
 }
 
-/// Patches that no map has with all their borders: borders give way where they end next to each other, which is told
-/// with the place, and the blocks are as watertight as ever. With quads small enough for the gap they all stay.
-TEST(ConformingParts, BordersWithoutRoomGiveWay)
+/// Patches that no map has with all their borders: the faces between borders that end next to each other are filled,
+/// which is told with the place, and the blocks are as watertight as ever. With quads small enough for the gap all are
+/// mapped.
+TEST(ConformingParts, PatchesWithoutAMapAreFilled)
 {
   const auto remesh = [](vtkQuadRemesh* filter, double gap, vtkIdType number)
   {
@@ -745,13 +746,11 @@ TEST(ConformingParts, BordersWithoutRoomGiveWay)
   };
   vtkNew<vtkQuadRemesh> coarse, fine;
   remesh(coarse, 0.02, 300);
-  EXPECT_TRUE(tells(coarse->GetNoticesText(), "of borders between patches"))
-    << coarse->GetNoticesText();
+  EXPECT_TRUE(tells(coarse->GetNoticesText(), "between sharp edges")) << coarse->GetNoticesText();
   EXPECT_TRUE(tells(coarse->GetNoticesText(), "near ("));
   EXPECT_TRUE(tells(coarse->GetNoticesText(), "ask for more quads"));
   remesh(fine, 0.3, 1500);
-  EXPECT_FALSE(tells(fine->GetNoticesText(), "of borders between patches"))
-    << fine->GetNoticesText();
+  EXPECT_FALSE(tells(fine->GetNoticesText(), "between sharp edges")) << fine->GetNoticesText();
 }
 
 /// Two solids with an edge in common and no face have nothing to be cut at: each is closed, and a notice tells.

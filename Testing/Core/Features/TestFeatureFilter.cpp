@@ -253,15 +253,16 @@ TEST(FeatureFilter, NearAPlaceOnlyDetectedFeaturesGo)
   markRow(mesh, 2, 0, 20, kDetected);
   markRow(mesh, 4, 0, 20, kFeatureEdge | kRequestedFeature);
   // The row at y = 2 is 0.5 away; edges [7, 8] to [11, 12] come closer than 2.2 to (9.5, 2.5).
-  const std::vector<Index> near = detectedFeaturesNear(mesh, { Vector3(9.5, 2.5, 0) }, 2.2);
+  const std::vector<Index> near =
+    featuresNear(mesh, { Vector3(9.5, 2.5, 0) }, 2.2, isDetectedFeature);
   EXPECT_EQ(near.size(), 5u);
   unmarkFeatures(mesh, near);
   EXPECT_EQ(featureEdges(mesh), 35u);
-  EXPECT_TRUE(detectedFeaturesNear(mesh, { Vector3(9.5, 2.5, 0) }, 2.2).empty());
-  EXPECT_TRUE(detectedFeaturesNear(mesh, {}, 100).empty());
+  EXPECT_TRUE(featuresNear(mesh, { Vector3(9.5, 2.5, 0) }, 2.2, isDetectedFeature).empty());
+  EXPECT_TRUE(featuresNear(mesh, {}, 100, isDetectedFeature).empty());
   // Boundaries are no features.
-  EXPECT_EQ(detectedFeaturesNear(mesh, { Vector3(10, 3, 0) }, 100).size(), 15u);
-  EXPECT_THROW(detectedFeaturesNear(mesh, {}, 0), InvalidInput);
+  EXPECT_EQ(featuresNear(mesh, { Vector3(10, 3, 0) }, 100, isDetectedFeature).size(), 15u);
+  EXPECT_THROW(featuresNear(mesh, {}, 0, isDetectedFeature), InvalidInput);
 }
 
 TEST(FeatureFilter, EdgeLengthMustBePositive)

@@ -112,83 +112,79 @@ TEST(GivenUpFeatures, ThreadsAndScaleChangeNothing)
   }
 }
 
-/// Four patches that no map has with all their borders, see there.
-TEST(GivenUpFeatures, BordersOfPatchesYieldWhereTheyMay)
+/// Four patches that no map has with all their borders, see there: where these yield, or are edges of a design, all
+/// stay, and faces are filled.
+TEST(GivenUpFeatures, FacesBetweenBordersAreFilled)
 {
   const test::PatchedMesh tube = test::staggeredTube(0.02);
-  SurfaceInput input = test::toInput(tube.mesh);
-  input.patchIds = tube.patch;
-  RemeshOptions options;
-  options.quads = 300;
-  options.threads = 1;
-  EXPECT_FALSE(remesh(input, options).status.ok()); // what was asked for stays
-  input.patchesYield = true;
-  const RemeshResult result = remesh(input, options);
-  ASSERT_TRUE(result.status.ok()) << result.status.message;
-  EXPECT_NE(std::find(result.attempts.begin(), result.attempts.end(), "fewer borders"),
-    result.attempts.end());
-  EXPECT_TRUE(std::any_of(result.notices.begin(), result.notices.end(),
-    [](const std::string& text) {
-      return text.find("of borders between patches, nearer to another one") != std::string::npos;
-    }));
-  options.threads = 4;
-  const RemeshResult again = remesh(input, options);
-  EXPECT_EQ(again.quads.quads, result.quads.quads);
-  EXPECT_EQ(again.quads.points, result.quads.points);
-  // With a gap that quads fit into nothing gives way, and the result is the one without the permission.
-  const test::PatchedMesh wide = test::staggeredTube(0.3);
-  SurfaceInput other = test::toInput(wide.mesh);
-  other.patchIds = wide.patch;
-  options.quads = 1500;
-  const RemeshResult asked = remesh(other, options);
-  other.patchesYield = true;
-  const RemeshResult yielding = remesh(other, options);
-  ASSERT_TRUE(asked.status.ok()) << asked.status.message;
-  EXPECT_EQ(yielding.quads.points, asked.quads.points);
-}
-
-/// The same borders as edges of a design.
-TEST(GivenUpFeatures, FacesOfADesignAreFilled)
-{
-  const test::PatchedMesh tube = test::staggeredTube(0.02);
-  SurfaceInput input = test::toInput(tube.mesh);
   const Mesh& mesh = tube.mesh;
-  input.featureEdges.assign(mesh.faceCount(), 0);
+  std::vector<std::uint8_t> borders(mesh.faceCount(), 0);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     const bool isBorder =
       !mesh.isBoundary(h) && tube.patch[Mesh::face(h)] != tube.patch[Mesh::face(mesh.twin[h])];
-    input.featureEdges[Mesh::face(h)] |= static_cast<std::uint8_t>(isBorder ? 1U << h % 3 : 0U);
+    borders[Mesh::face(h)] |= static_cast<std::uint8_t>(isBorder ? 1U << h % 3 : 0U);
   }
-  RemeshOptions options;
-  options.quads = 300;
-  options.threads = 1;
-  options.featureAngle.reset();
-  EXPECT_FALSE(remesh(input, options).status.ok()); // what was asked for stays
-  input.featuresYield = true;
-  const RemeshResult result = remesh(input, options);
-  ASSERT_TRUE(result.status.ok()) << result.status.message;
-  const auto tells = [&](const char* words)
+  for (const auto& [isDesign, yields] :
+    { std::pair(false, false), { false, true }, { true, true } })
   {
-    return std::any_of(result.notices.begin(), result.notices.end(),
-      [&](const std::string& text) { return text.find(words) != std::string::npos; });
-  };
-  EXPECT_TRUE(tells("between sharp edges"));
-  EXPECT_FALSE(tells("of CAD edges"));
-  EXPECT_FALSE(tells("borders"));
-  EXPECT_EQ(result.tries.led[static_cast<std::size_t>(Try::FilledFaces)], 1U);
-  EXPECT_GT(result.certificate.withoutMap, 0U);
-  EXPECT_EQ(
-    result.certificate.withoutMap + result.certificate.triangles, result.surface.mesh.faceCount());
-  EXPECT_EQ(result.uv.size(), result.surface.mesh.halfEdgeCount());
-  EXPECT_EQ(validate(result.surface.mesh), "");
-  const QuadTopology topology = analyzeQuads(result.quads.quads, result.quads.points.size());
-  EXPECT_TRUE(topology.manifold()) << topology.text();
-  EXPECT_EQ(topology.boundaryLoops, countBoundaryLoops(mesh, boundaryHalfEdges(mesh)));
-  options.threads = 2;
-  const RemeshResult again = remesh(input, options);
-  EXPECT_EQ(again.quads.points, result.quads.points);
-  EXPECT_EQ(again.quads.quads, result.quads.quads);
+    SurfaceInput input = test::toInput(mesh);
+    RemeshOptions options;
+    options.quads = 300;
+    options.threads = 1;
+    if (isDesign)
+    {
+      input.featureEdges = borders;
+      input.featuresYield = yields;
+      options.featureAngle.reset();
+    }
+    else
+    {
+      input.patchIds = tube.patch;
+      input.patchesYield = yields;
+    }
+    const RemeshResult result = remesh(input, options);
+    if (!yields)
+    {
+      EXPECT_FALSE(result.status.ok()); // what was marked stays
+      continue;
+    }
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_TRUE(std::any_of(result.notices.begin(), result.notices.end(),
+      [](const std::string& text)
+      { return text.find("between sharp edges") != std::string::npos; }));
+    EXPECT_EQ(result.tries.led[static_cast<std::size_t>(Try::FilledFaces)], 1U);
+    EXPECT_TRUE(result.givenUpFeatures.empty());
+    EXPECT_GT(result.certificate.withoutMap, 0U);
+    EXPECT_EQ(result.certificate.withoutMap + result.certificate.triangles,
+      result.surface.mesh.faceCount());
+    EXPECT_EQ(result.uv.size(), result.surface.mesh.halfEdgeCount());
+    EXPECT_EQ(validate(result.surface.mesh), "");
+    const QuadTopology topology = analyzeQuads(result.quads.quads, result.quads.points.size());
+    EXPECT_TRUE(topology.manifold()) << topology.text();
+    EXPECT_EQ(topology.boundaryLoops, countBoundaryLoops(mesh, boundaryHalfEdges(mesh)));
+    options.threads = 2;
+    const RemeshResult again = remesh(input, options);
+    EXPECT_EQ(again.quads.points, result.quads.points);
+    EXPECT_EQ(again.quads.quads, result.quads.quads);
+  }
+}
+
+/// With a gap that quads fit into nothing gives way, and the result is the one without the permission.
+TEST(GivenUpFeatures, BordersWithRoomStay)
+{
+  const test::PatchedMesh wide = test::staggeredTube(0.3);
+  SurfaceInput input = test::toInput(wide.mesh);
+  input.patchIds = wide.patch;
+  RemeshOptions options;
+  options.quads = 1500;
+  options.threads = 1;
+  const RemeshResult asked = remesh(input, options);
+  input.patchesYield = true;
+  const RemeshResult yielding = remesh(input, options);
+  ASSERT_TRUE(asked.status.ok()) << asked.status.message;
+  EXPECT_EQ(asked.certificate.withoutMap, 0U);
+  EXPECT_EQ(yielding.quads.points, asked.quads.points);
 }
 
 /// The left half of a plate is cut out. Quads of the right half have no points at the ends of the line between them,

@@ -272,7 +272,7 @@ TEST(History, TheLastResortHasWorkOfItsOwn)
   history.beginLastResort();
   addRound(history, planOf("no features"), ofWork(failedMap(), 240), nullptr);
   EXPECT_FALSE(history.isSpent());
-  addRound(history, planOf("smaller quads near"), ofWork(failedMap(), 240), nullptr);
+  addRound(history, planOf("more quads"), ofWork(failedMap(), 240), nullptr);
   EXPECT_TRUE(history.isSpent());
 }
 
@@ -342,13 +342,11 @@ TEST(History, NoticesOfAnAttemptThatIsUndoneAreNotTheResults)
   addRound(history, plan, good, quads);
   plan = planOf("fewer features");
   plan.notices = { "of the plan", "sharp edges were not used" };
-  plan.finer.notice = "more quads were made";
   undone->notices = { "of a map that is undone" };
   others->notices = { "of quads that are undone" };
   addRound(history, plan, undone, others);
   const Attempt& result = history.result();
   EXPECT_EQ(result.plan.notices, Texts({ "of the plan" }));
-  EXPECT_EQ(result.plan.finer.notice, "");
   EXPECT_EQ(result.map->notices, Texts({ "of the map" }));
   EXPECT_EQ(result.quads->notices, Texts({ "of the quads" }));
 }

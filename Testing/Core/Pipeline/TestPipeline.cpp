@@ -141,7 +141,7 @@ TEST(Pipeline, RingThatTwoQuadsWouldSurroundGetsMore)
   EXPECT_TRUE(tells(result, "do not fit round a handle")) << "no notice";
   EXPECT_EQ(result.targetQuads, 80u);
   EXPECT_GT(result.quads.quads.size(), 120u);
-  EXPECT_LT(result.quads.quads.size(), 400u);
+  EXPECT_LT(result.quads.quads.size(), 640u); // the most
   const TopologyCounts topology = topologyOf(result.quads);
   EXPECT_EQ(topology.euler, 0);
   EXPECT_TRUE(topology.oriented);
@@ -168,9 +168,7 @@ TEST(Pipeline, QuadsAreSmallerOnlyWhereTheyDoNotFit)
   options.quads = 250;
   const RemeshResult result = remesh(test::toInput(unevenTorus()), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
-  // Before the first map, or after one whose quads met themselves.
-  EXPECT_TRUE(
-    tells(result, "quads are made smaller round") || tells(result, "they are made smaller there"));
+  EXPECT_TRUE(tells(result, "quads are made smaller round"));
   EXPECT_EQ(result.targetQuads, 250u);
   // Doubled they are 500.
   EXPECT_LT(result.quads.quads.size(), 450u);

@@ -29,8 +29,6 @@ using test::planOf;
 using test::quadsWith;
 
 constexpr std::size_t kTarget = 1000;
-/// Of the tubes below, over the edge length.
-constexpr double kTubeRadius = 0.05;
 
 /// A run on a small surface, without a store. s: edge length of the quads.
 struct TestRun
@@ -84,37 +82,6 @@ void expectStep(const std::optional<Plan>& plan, const char* step)
   EXPECT_STREQ(plan.value().step, step);
 }
 
-/// A coarse level by itself: a small tube at the place with an integer-grid map of two quads round it, which touch
-/// themselves in each of the rows - 1 rings between them.
-void putTube(MapAttempt& map, const Vector3& place, int rows = 2)
-{
-  constexpr int around = 8;
-  Mesh tube = test::openCylinder(around, 4, kTubeRadius, kTubeRadius);
-  for (Vector3& p : tube.position.editAll())
-  {
-    p += place;
-  }
-  map.coarse.mesh = tube;
-  map.coarseUv.clear();
-  for (int cell = 0; cell < around * 4; ++cell)
-  {
-    for (const int corner : { 0, 1, 2, 0, 2, 3 })
-    {
-      const int i = cell % around + (corner == 1 || corner == 2 ? 1 : 0);
-      const int j = cell / around + (corner >= 2 ? 1 : 0);
-      map.coarseUv.push_back({ 2 * kOne * i / around, rows * kOne * j / 4 });
-    }
-  }
-}
-
-/// A failure on the surface that the coarse map shows already.
-std::shared_ptr<MapAttempt> mapWithTube(const Vector3& place, int rows = 2)
-{
-  auto map = carriedMap(1);
-  putTube(*map, place, rows);
-  return map;
-}
-
 std::vector<Index> vertices(Index count)
 {
   std::vector<Index> all(count);
@@ -146,9 +113,8 @@ std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centre
 TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
-    std::vector<std::string>(
-      { "more freedom", "room for curves", "kept defects", "smaller quads near", "more quads",
-        "fewer borders", "fewer features", "coarser features", "no borders" }));
+    std::vector<std::string>({ "more freedom", "room for curves", "kept defects", "more quads",
+      "fewer features", "coarser features" }));
 }
 
 // The plan that a run begins with.
@@ -445,6 +411,14 @@ struct CubeRun : TestRun
   Index inFace() const { return vertexAt({ 0.5, 0.5, 0 }); }
 };
 
+/// A coarse map that fails on an edge of the cube.
+std::shared_ptr<MapAttempt> failedAtEdge()
+{
+  auto failed = failedMap();
+  failed->failedPlaces = { Vector3(0.5, 0, 0) };
+  return failed;
+}
+
 TEST(Recovery, KeptDefectsLeaveTheLastTimeToFeaturesThatCanBeGivenUp)
 {
   CubeRun run;
@@ -461,169 +435,34 @@ TEST(Recovery, KeptDefectsLeaveTheLastTimeToFeaturesThatCanBeGivenUp)
   EXPECT_TRUE(offersAfter("kept defects", run.inFace()));
 }
 
-// Smaller quads where those of the coarse map touch themselves.
-
-TEST(Recovery, SmallerQuadsNearShrinkSizesNearThePlacesOnly)
-{
-  TestRun run(test::gridPlane(40, 40), 1);
-  const Vector3 place(10, 10, 0), hopeless(30, 30, 0);
-  run.context.shortLoops.hopelessPlaces = { hopeless };
-  const auto map = mapWithTube(place);
-  const std::optional<GridDefects> found = gridDefects(run.context, *map);
-  ASSERT_TRUE(found);
-  ASSERT_FALSE(found->places.empty());
-  const std::optional<Plan> next = run.nextAfter(run.first(), map, failedQuads());
-  expectStep(next, "smaller quads near");
-  ASSERT_TRUE(next->sizes);
-  const std::vector<float>& sizes = *next->sizes;
-  ASSERT_EQ(sizes.size(), run.mesh().vertexCount());
-  for (Index v = 0; v < run.mesh().vertexCount(); ++v)
-  {
-    const Vector3& p = run.mesh().position[v];
-    const double distance = std::min((p - place).norm(), (p - hopeless).norm());
-    if (distance < 1.5 - 2 * kTubeRadius)
-    {
-      EXPECT_EQ(sizes[v], 0.5F) << p.transpose();
-    }
-    else if (distance > 1.5 + 2 * kTubeRadius)
-    {
-      EXPECT_GE(sizes[v], std::min(1.0, 0.5 + kSizeGrowth * (distance - 1.5 - 2 * kTubeRadius)))
-        << p.transpose();
-    }
-  }
-  // From there they grow no faster than neighbouring quads can.
-  EXPECT_LE(sizes[run.vertexAt(place + Vector3(2, 0, 0))], 0.5 + kSizeGrowth);
-  EXPECT_EQ(next->finer.shrinks, 1);
-  EXPECT_EQ(next->finer.areaBefore, 1600);
-  EXPECT_EQ(next->finer.sizesBefore, nullptr);
-  EXPECT_EQ(next->finer.defects, found->count);
-  EXPECT_EQ(next->finer.firstDefects.count, found->count);
-  const double area = areaOverSizes(*run.context.surface, sizes);
-  EXPECT_GT(area, 1640);
-  EXPECT_DOUBLE_EQ(next->quads, kTarget * area / 1600);
-  EXPECT_NE(next->finer.notice.find("made smaller there"), std::string::npos);
-}
-
-TEST(Recovery, SmallerQuadsNearGoOnFromTheSizesOfBefore)
-{
-  TestRun run(test::gridPlane(40, 40), 1);
-  const Vector3 place(10, 10, 0), hopeless(30, 30, 0);
-  run.context.shortLoops.hopelessPlaces = { hopeless };
-  const std::optional<Plan> first = run.nextAfter(run.first(), mapWithTube(place));
-  expectStep(first, "smaller quads near");
-  const std::optional<Plan> next = run.nextAfter(*first, mapWithTube(place, 3));
-  expectStep(next, "smaller quads near");
-  EXPECT_EQ((*next->sizes)[run.vertexAt(place)], 0.25F);
-  EXPECT_EQ((*next->sizes)[run.vertexAt(hopeless)], 0.5F); // these were for the first time
-  EXPECT_EQ(next->finer.shrinks, 2);
-  EXPECT_EQ(next->finer.areaBefore, 1600);
-  EXPECT_EQ(next->finer.firstDefects.count, first->finer.firstDefects.count);
-  EXPECT_GT(next->finer.defects, first->finer.defects);
-  EXPECT_DOUBLE_EQ(next->quads, kTarget * areaOverSizes(*run.context.surface, *next->sizes) / 1600);
-}
-
-TEST(Recovery, SmallerQuadsNearEndAfterFourTimes)
-{
-  TestRun run(test::gridPlane(40, 40), 1);
-  Plan plan = run.first();
-  plan.finer.areaBefore = 1600;
-  plan.finer.shrinks = 3;
-  plan.finer.firstDefects = { 6, { Vector3(10, 10, 0) } };
-  const auto map = mapWithTube({ 10, 10, 0 });
-  const std::optional<Plan> fourth = run.nextAfter(plan, map);
-  expectStep(fourth, "smaller quads near");
-  expectStep(run.nextAfter(*fourth, map), "more quads");
-}
-
-TEST(Recovery, SmallerQuadsNearAreGivenBackWhereTheyWouldBeTooMany)
-{
-  TestRun run(test::gridPlane(12, 12), 1);
-  Plan plan = run.first();
-  plan.sizes = std::make_shared<const std::vector<float>>(run.mesh().vertexCount(), 1.0F);
-  const auto map = mapWithTube({ 6, 6, 0 });
-  const std::optional<Plan> shrunk = run.nextAfter(plan, map);
-  expectStep(shrunk, "smaller quads near");
-  EXPECT_NE(shrunk->sizes, plan.sizes);
-  EXPECT_EQ(shrunk->finer.sizesBefore, plan.sizes);
-  const std::optional<Plan> next = run.nextAfter(*shrunk, map);
-  expectStep(next, "more quads");
-  EXPECT_EQ(next->sizes, plan.sizes);
-  EXPECT_FALSE(next->finer.mayShrink);
-  EXPECT_EQ(next->quads, 2.0 * kTarget);
-  // They are not tried again.
-  Plan again = *next;
-  again.finer.defects = 1000;
-  expectStep(run.nextAfter(again, map), "more quads");
-}
-
-TEST(Recovery, SmallerQuadsAreNoHelpWithoutDefectsOfTheCoarseGrid)
-{
-  TestRun run(test::gridPlane(40, 40), 1);
-  EXPECT_FALSE(run.nextAfter(run.first(), carriedMap(1), failedQuads()));
-  const auto invalid = mapWithTube({ 10, 10, 0 });
-  invalid->coarseCertificate.notPositive = 1;
-  EXPECT_FALSE(run.nextAfter(run.first(), invalid, failedQuads()));
-  // Nor for the coarsest layout, which has no size.
-  run.options.coarsestIntegers = true;
-  EXPECT_FALSE(run.nextAfter(run.first(), mapWithTube({ 10, 10, 0 }), failedQuads()));
-}
-
 TEST(Recovery, AnotherRoundBeginsWithTheLevelsOfTheFirst)
 {
-  TestRun run(test::gridPlane(40, 40), 1);
+  CubeRun run;
   Plan plan = run.first();
   plan.levels.keptVertices = { 1, 2, 3 };
   plan.levels.coarseVertices = 5000;
   plan.levels.edgeLength = 0.5;
-  const auto failed = failedMap();
-  putTube(*failed, { 10, 10, 0 });
-  Plan doubled = plan;
-  doubled.finer.mayShrink = false;
-  for (const Plan& before : { plan, doubled })
-  {
-    const std::optional<Plan> next = run.nextAfter(before, failed);
-    ASSERT_TRUE(next);
-    EXPECT_TRUE(next->levels.keptVertices.empty()) << next->step;
-    EXPECT_EQ(next->levels.coarseVertices, run.options.coarseVertices) << next->step;
-    EXPECT_EQ(next->levels.edgeLength, 1) << next->step;
-  }
+  const std::optional<Plan> next = run.nextAfter(plan, failedAtEdge());
+  ASSERT_TRUE(next);
+  EXPECT_TRUE(next->levels.keptVertices.empty());
+  EXPECT_EQ(next->levels.coarseVertices, run.options.coarseVertices);
+  EXPECT_EQ(next->levels.edgeLength, 1);
 }
 
 TEST(Recovery, AnotherRoundKeepsWhatTheCoarseMapNeeded)
 {
-  TestRun run(test::gridPlane(40, 40), 1);
+  CubeRun run;
   Plan plan = run.first();
   plan.nextLevels.keptVertices = { 4, 7 };
   plan.nextLevels.coarseVertices = 321;
   plan.nextLevels.edgeLength = 0.25;
   plan.levels = plan.nextLevels;
   plan.levels.keptVertices = { 1, 4, 7 }; // 1 for the sake of the surface
-  const auto failed = failedMap();
-  putTube(*failed, { 10, 10, 0 });
-  const std::optional<Plan> next = run.nextAfter(plan, failed);
+  const std::optional<Plan> next = run.nextAfter(plan, failedAtEdge());
   ASSERT_TRUE(next);
   EXPECT_EQ(next->levels.keptVertices, std::vector<Index>({ 4, 7 }));
   EXPECT_EQ(next->levels.coarseVertices, 321U);
   EXPECT_EQ(next->levels.edgeLength, 0.25);
-}
-
-TEST(Recovery, NoFinerGridOnceARoundHasQuads)
-{
-  TestRun run(test::gridPlane(12, 12), 1);
-  const Plan plan = run.first();
-  Plan doubling = plan;
-  doubling.finer.mayShrink = false;
-  for (const Plan& later : { plan, doubling })
-  {
-    expectStep(run.nextAfter(later, mapWithTube({ 6, 6, 0 }), failedQuads()),
-      later.finer.mayShrink ? "smaller quads near" : "more quads");
-    History history;
-    history.addMap(plan, carriedMap(1));
-    history.addQuads(quadsWith(2));
-    history.addMap(later, mapWithTube({ 6, 6, 0 }));
-    history.addQuads(failedQuads());
-    EXPECT_FALSE(nextPlan(run.context, history)); // there are no features to give up
-  }
 }
 
 TEST(Recovery, ManyFailedVerticesAreNotKeptForTheNextRound)
@@ -642,55 +481,26 @@ TEST(Recovery, ManyFailedVerticesAreNotKeptForTheNextRound)
 
 // More quads everywhere.
 
-TEST(Recovery, MoreQuadsDoubleThemThreeTimes)
+TEST(Recovery, MoreQuadsGoThreeTimesRoundTheShortestLoop)
 {
   TestRun run(test::gridPlane(12, 12), 1);
-  Plan plan = run.first();
-  plan.finer.mayShrink = false;
-  for (int times = 1; times <= 3; ++times)
-  {
-    const std::optional<Plan> next = run.nextAfter(plan, mapWithTube({ 6, 6, 0 }, 9 - times));
-    expectStep(next, "more quads");
-    plan = *next;
-    EXPECT_EQ(plan.finer.doublings, times);
-    EXPECT_EQ(plan.quads, std::pow(2.0, times) * kTarget);
-    EXPECT_NE(plan.finer.notice.find("made for " + std::to_string(std::llround(plan.quads))),
-      std::string::npos)
-      << plan.finer.notice;
-  }
-  EXPECT_FALSE(run.nextAfter(plan, mapWithTube({ 6, 6, 0 }, 2)));
-}
-
-TEST(Recovery, MoreQuadsEndWhereDefectsDoNotFall)
-{
-  TestRun run(test::gridPlane(12, 12), 1);
-  Plan plan = run.first();
-  plan.finer.mayShrink = false;
-  const std::optional<Plan> doubled = run.nextAfter(plan, mapWithTube({ 6, 6, 0 }, 4));
-  expectStep(doubled, "more quads");
-  EXPECT_FALSE(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 4)));
-  EXPECT_FALSE(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 5)));
-  expectStep(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 3)), "more quads");
-  // As many more as the tube is longer in quads.
-  expectStep(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 6)), "more quads");
-}
-
-TEST(Recovery, MoreQuadsAfterSizesCompareWithTheFirstFailure)
-{
-  TestRun run(test::gridPlane(12, 12), 1);
-  Plan plan = run.first();
-  plan.finer.shrinks = 4;
-  plan.finer.areaBefore = 144;
-  plan.finer.defects = 1;
-  plan.finer.firstDefects = { 77, { Vector3(6, 6, 0) } };
-  // Smaller quads may have mended the grid and led to another failure.
-  for (const auto& map : { mapWithTube({ 2, 2, 0 }), carriedMap(1) })
-  {
-    const std::optional<Plan> next = run.nextAfter(plan, map, failedQuads());
-    expectStep(next, "more quads");
-    EXPECT_EQ(next->finer.defects, 77U);
-    EXPECT_NE(next->finer.notice.find("(6, 6, 0)"), std::string::npos) << next->finer.notice;
-  }
+  EXPECT_FALSE(run.nextAfter(run.first(), carriedMap(1), failedQuads())); // there is no loop
+  addShortLoop(run, { 6, 6, 0 }, 2.5);
+  addShortLoop(run, { 2, 2, 0 }, 1.5);
+  const Plan first = run.first();
+  EXPECT_FALSE(run.nextAfter(first, carriedMap(1), quadsWith(2))); // inverted ones are no reason
+  const std::optional<Plan> next = run.nextAfter(first, carriedMap(1), failedQuads());
+  expectStep(next, "more quads");
+  EXPECT_DOUBLE_EQ(next->quads, 4.0 * kTarget);
+  EXPECT_EQ(next->sizes, first.sizes);
+  EXPECT_NE(next->notices.back().find("near (2, 2, 0): made for 4000 quads"), std::string::npos)
+    << next->notices.back();
+  EXPECT_FALSE(run.nextAfter(*next, carriedMap(1), failedQuads())); // once
+  addShortLoop(run, { 3, 3, 0 }, 1);                                // nine times as many
+  EXPECT_FALSE(run.nextAfter(first, carriedMap(1), failedQuads()));
+  run.context.shortLoops.loops.pop_back();
+  run.options.smallDetails = SmallDetails::Keep;
+  EXPECT_FALSE(run.nextAfter(first, carriedMap(1), failedQuads()));
 }
 
 // Features that nobody asked for.
@@ -837,92 +647,12 @@ TEST(Recovery, FeaturesThatTheUserAskedForStay)
   EXPECT_FALSE(run.nextAfter(run.first(), mapWithFoldsAt({ asked }), quadsWith(1)));
 }
 
-/// All of the finer grid was tried.
-Plan planWithFinerGrid(TestRun& run, const std::shared_ptr<const std::vector<float>>& before)
-{
-  Plan plan = run.first();
-  const std::vector<float> sizes(run.mesh().vertexCount(), 0.5F);
-  plan.sizes = std::make_shared<const std::vector<float>>(sizes);
-  plan.quads = 8765;
-  plan.finer.shrinks = 4;
-  plan.finer.sizesBefore = before;
-  plan.finer.areaBefore = 6;
-  plan.finer.doublings = 3;
-  plan.finer.notice = "they are made smaller there";
-  return plan;
-}
-
-TEST(Recovery, FewerFeaturesAfterAFailureTakeTheFinerGridBack)
-{
-  CubeRun run;
-  const auto before = std::make_shared<const std::vector<float>>(run.mesh().vertexCount(), 1.0F);
-  const auto map = mapWithFoldsAt({ run.onEdge() });
-  const std::optional<Plan> next =
-    run.nextAfter(planWithFinerGrid(run, before), map, failedQuads());
-  expectStep(next, "fewer features");
-  EXPECT_EQ(next->sizes, before);
-  EXPECT_EQ(next->quads, double{ kTarget });
-  EXPECT_EQ(next->finer.shrinks, 0);
-  EXPECT_EQ(next->finer.doublings, 0);
-  EXPECT_EQ(next->finer.areaBefore, 0);
-  EXPECT_EQ(next->finer.sizesBefore, nullptr);
-  EXPECT_TRUE(next->finer.mayShrink);
-  EXPECT_EQ(next->finer.notice, "");
-}
-
-TEST(Recovery, FewerFeaturesForQuadsAtFoldsKeepTheFinerGrid)
-{
-  CubeRun run;
-  const Plan plan = planWithFinerGrid(run, nullptr);
-  const auto map = mapWithFoldsAt({ run.onEdge() });
-  const std::optional<Plan> next = run.nextAfter(plan, map, quadsWith(3));
-  expectStep(next, "fewer features");
-  EXPECT_EQ(givenUpAt(run, *next), std::vector<double>({ 0.4375, 0.5625 }));
-  EXPECT_EQ(next->sizes, plan.sizes);
-  EXPECT_EQ(next->quads, plan.quads);
-  EXPECT_EQ(next->finer.shrinks, 4);
-  EXPECT_EQ(next->finer.doublings, 3);
-  EXPECT_EQ(next->finer.notice, plan.finer.notice);
-}
-
-TEST(Recovery, FewerFeaturesFollowMoreQuadsThatWereNoMatterOfSize)
-{
-  CubeRun run;
-  Plan plan = run.first();
-  plan.finer.mayShrink = false;
-  // The coarse grid fails at the edge of the cube, the map on the surface at none.
-  const auto map = mapWithTube({ 0.4375, 0, 0 });
-  map->transfer.defectVertices = { run.inFace() };
-  const std::optional<Plan> doubled = run.nextAfter(plan, map, failedQuads());
-  expectStep(doubled, "more quads");
-  const std::optional<Plan> next = run.nextAfter(*doubled, map, failedQuads());
-  expectStep(next, "fewer features");
-  EXPECT_EQ(givenUpAt(run, *next), std::vector<double>({ 0.3125, 0.4375, 0.5625 }));
-  EXPECT_EQ(next->quads, double{ kTarget });
-}
-
 // Of all of them.
-
-TEST(Recovery, TheFirstStrategyWithAPlanIsTaken)
-{
-  CubeRun run;
-  const auto map = mapWithTube({ 0.5, 0, 0 });
-  map->transfer.defectVertices = { run.onEdge() };
-  // All three have something to offer here.
-  Plan plan = run.first();
-  expectStep(run.nextAfter(plan, map, failedQuads()), "smaller quads near");
-  plan.finer.mayShrink = false;
-  expectStep(run.nextAfter(plan, map, failedQuads()), "more quads");
-  plan.finer.doublings = 3;
-  expectStep(run.nextAfter(plan, map, failedQuads()), "fewer features");
-  // Quads that are inverted are no failure of the grid.
-  expectStep(run.nextAfter(run.first(), map, quadsWith(1)), "fewer features");
-}
 
 TEST(Recovery, GoodQuadsNeedNothing)
 {
   CubeRun run;
-  const auto map = mapWithTube({ 0.5, 0, 0 });
+  const auto map = carriedMap(1);
   map->transfer.defectVertices = { run.onEdge() };
   EXPECT_FALSE(run.nextAfter(run.first(), map, quadsWith(0)));
   const auto elsewhere = quadsWith(5);
