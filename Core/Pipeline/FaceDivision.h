@@ -27,7 +27,8 @@ struct CutFaces
 };
 
 /// Whether features cut a surface into several faces, and nothing is asked for that quads without a map may not have
-/// (guides and sizes are wishes, which filled faces need not follow), nor are features of a scan marked that never yield.
+/// (guides and sizes are wishes, which filled faces need not follow), nor are features of a scan marked that never
+/// yield.
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options);
 /// Whether attempts on such a surface have no quads yet, and it is designed, or has patches: no feature is given up for
 /// a map there. On others, whose features are those of a scan, features near a failure go first.

@@ -78,7 +78,7 @@ const char* nameOf(const Mesh& mesh, const std::vector<Index>& features)
   return wereAskedFor ? "edges of patches or CAD faces" : "sharp edges";
 }
 
-/// Features that quads so many times as large as they are to be cannot resolve; those that yield count as detected ones.
+/// Features that quads so many times as large as they are to be cannot resolve; those that yield count as detected.
 std::vector<Index> unresolved(const RunContext& run, Mesh mesh)
 {
   for (std::uint8_t& flags : mesh.flags.editAll())
