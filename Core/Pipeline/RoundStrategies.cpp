@@ -22,8 +22,6 @@ namespace quadrille
 namespace
 {
 
-/// So many times as many quads as were asked for are made at most for the sake of a loop that three must fit round.
-constexpr double kMostQuadsForLoops = 8;
 /// Features are given up within this part of the edge length the first time, then twice as far each time.
 constexpr double kFirstFeatureDrop = 0.5;
 
@@ -148,19 +146,19 @@ std::optional<Plan> moreQuads(const AttemptFailure& failure)
   Plan plan = newRound(failure.attempt.plan);
   const auto wanted = static_cast<double>(run.targetQuads);
   if (!failure.withoutQuads || failure.history.hasResult() || loops.empty() ||
-    !mayResolve(run.options) || plan.quads > wanted)
+    run.options.smallDetails != SmallDetails::Resolve || !mayResolve(run.options) ||
+    plan.quads > wanted)
   {
     return std::nullopt;
   }
   const HandleLoop& shortest = *std::min_element(loops.begin(), loops.end(),
     [](const HandleLoop& a, const HandleLoop& b) { return a.length < b.length; });
-  const double factor = kQuadsOfLoop * run.edgeLength / shortest.length;
-  plan.quads = wanted * factor * factor;
-  if (factor * factor > kMostQuadsForLoops &&
-    (run.options.smallDetails != SmallDetails::Resolve || factor * kLeastShrink > 1))
+  const double finer = kQuadsOfLoop * run.edgeLength / shortest.length;
+  if (finer * kLeastShrink > 1)
   {
     return std::nullopt;
   }
+  plan.quads = wanted * finer * finer;
   plan.notices.push_back("quads of the wanted size do not fit round a handle or a hole near " +
     placeText(run.surface->mesh.position[shortest.vertices.front()]) + ": made for " +
     std::to_string(std::llround(plan.quads)) +

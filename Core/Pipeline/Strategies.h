@@ -48,9 +48,9 @@ std::optional<Plan> keptDefects(const AttemptFailure& failure);
 
 // For another round.
 
-/// Where loops round handles or holes are too short for three quads: as many quads everywhere as go three times
-/// round the shortest one, eight times as many as were asked for at most, or with edges down to kLeastShrink where
-/// details are to be resolved. Bound: times.
+/// Where small details are to be resolved, and loops round handles or holes are too short for three quads: as many
+/// quads everywhere as go three times round the shortest one, unless their edges were shorter than kLeastShrink. Bound:
+/// times.
 std::optional<Plan> moreQuads(const AttemptFailure& failure);
 
 /// Features that may be given up (see mayBeGivenUp) are, near the places of a failure, twice as far as the last time
