@@ -56,8 +56,10 @@ public:
     step_ = length_ / kPlacesAlong;
     if (radius > 0)
     {
-      // As many along as that a place stands for about a square.
+      // As many along as that a place stands for about a square; each in the middle of what it stands for.
       step_ = std::max(step_, std::min(radius / kStepsBeside, length_ / 2));
+      step_ = length_ / std::max(1.0, std::round(length_ / step_));
+      beside_ = radius / std::max(1.0, std::round(radius / step_));
     }
   }
 
@@ -71,7 +73,7 @@ public:
       for (; length > 0 && passed <= length; passed += step_)
       {
         pollNowAndThen(found_.size());
-        addAcross(course_[i] + passed / length * along, along / length);
+        addAcross(course_[i] + passed / length * along, along / length, step_);
       }
       passed -= length;
     }
@@ -84,50 +86,52 @@ public:
   }
 
 private:
-  /// At a place of the course, and to both sides of it.
-  void addAcross(const Vector3& p, const Vector3& along)
+  /// At a place of the course or, where it has a radius, to both sides of it. length: that they stand for along it.
+  void addAcross(const Vector3& p, const Vector3& along, double length)
   {
     const SurfacePlaces::Place at = places_.nearestPlace(p);
-    add(at, along);
-    if (radius_ > 0)
+    if (radius_ == 0)
     {
-      const Vector3 aside = areaNormal(input_, at.polygon).stableNormalized().cross(along);
-      march(at, aside, along);
-      march(at, -aside, along);
+      add(at, along, length * length);
+      return;
     }
+    const Vector3 aside = areaNormal(input_, at.polygon).stableNormalized().cross(along);
+    march(at, aside, along, length);
+    march(at, -aside, along, length);
   }
   /// Beyond an end of the course.
   void addBeyond(const Vector3& end, const Vector3& out)
   {
     SurfacePlaces::Place at = places_.nearestPlace(end);
     Vector3 along = out;
-    for (double way = step_; way <= radius_; way += step_)
+    for (double step = 0.5 * beside_, way = step; way < radius_; step = beside_, way += step)
     {
-      const SurfacePlaces::Place next = stepFrom(at, along);
-      if ((next.point - at.point).norm() > kTornStep * step_ ||
+      const SurfacePlaces::Place next = stepFrom(at, along, step);
+      if ((next.point - at.point).norm() > kTornStep * step ||
         segments_.at(next.point).distance > radius_ || next.point == at.point)
       {
         return;
       }
       along = inPlane(next.point - at.point, areaNormal(input_, next.polygon).stableNormalized());
       at = next;
-      addAcross(at.point, along);
+      addAcross(at.point, along, beside_);
     }
   }
-  SurfacePlaces::Place stepFrom(const SurfacePlaces::Place& at, const Vector3& direction) const
+  SurfacePlaces::Place stepFrom(
+    const SurfacePlaces::Place& at, const Vector3& direction, double step) const
   {
     const Vector3 normal = areaNormal(input_, at.polygon).stableNormalized();
-    return places_.nearestPlace(at.point + step_ * inPlane(direction, normal));
+    return places_.nearestPlace(at.point + step * inPlane(direction, normal));
   }
-  void march(SurfacePlaces::Place at, Vector3 direction, const Vector3& along)
+  void march(SurfacePlaces::Place at, Vector3 direction, const Vector3& along, double length)
   {
     const Vector3 begin = at.point;
-    for (double way = step_; way <= radius_; way += step_)
+    for (double step = 0.5 * beside_, way = step; way < radius_; step = beside_, way += step)
     {
-      const SurfacePlaces::Place next = stepFrom(at, direction);
+      const SurfacePlaces::Place next = stepFrom(at, direction, step);
       const double moved = (next.point - at.point).norm();
       // Near the boundary nearest places come back.
-      if (!(moved > 0.5 * step_) || moved > kTornStep * step_)
+      if (!(moved > 0.5 * step) || moved > kTornStep * step)
       {
         return;
       }
@@ -147,17 +151,17 @@ private:
       }
       direction = next.point - at.point;
       at = next;
-      add(at, isEnd ? along : nearest.direction);
+      add(at, isEnd ? along : nearest.direction, length * beside_);
     }
   }
-  void add(const SurfacePlaces::Place& at, const Vector3& direction)
+  void add(const SurfacePlaces::Place& at, const Vector3& direction, double area)
   {
     GuidedPlace guided;
     guided.polygon = at.polygon;
     guided.place = at.point;
     guided.normal = areaNormal(input_, at.polygon).stableNormalized();
     guided.direction = inPlane(direction, guided.normal);
-    guided.area = step_ * step_;
+    guided.area = area;
     guided.weight = weight_;
     found_.push_back(guided);
   }
@@ -168,6 +172,7 @@ private:
   NearestSegments segments_;
   double weight_, radius_;
   double length_ = 0, step_ = 0;
+  double beside_ = 0; ///< the step to the sides and beyond the ends; 0 without a radius
   std::vector<GuidedPlace> found_;
 };
 
