@@ -92,11 +92,11 @@ class Redecimation::Implementation
 {
 public:
   Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
-    : intermediate_(fine, fineHash, options, hierarchy_), stars_(options.stars)
+    : intermediate_(fine, fineHash, options, hierarchy_), stars_(options.stars), own_(options.own)
   {
     if (!stars_)
     {
-      stars_ = std::make_shared<SharedStars>(fine.vertexCount());
+      shareNone(fine);
     }
   }
 
@@ -112,7 +112,7 @@ public:
     const HierarchyOptions& options)
   {
     fineDefect_.clear();
-    stars_ = std::make_shared<SharedStars>(fine.vertexCount());
+    shareNone(fine);
     return intermediate_.follow(fine, fineHash, names, options);
   }
 
@@ -133,12 +133,18 @@ public:
   }
 
 private:
+  void shareNone(const Mesh& fine)
+  {
+    stars_ = std::make_shared<SharedStars>();
+    own_ = { fine.vertexCount(), {}, 0 };
+  }
+
   void decimate(const HierarchyOptions& options)
   {
     const Level& level = hierarchy_.intermediate;
     DecimationMesh mesh(intermediate_.mesh());
     BudgetOptions budget = budgetOptions(level, options);
-    const std::vector<Index> names = stars_->namesOf(level);
+    const std::vector<Index> names = stars_->namesOf(level, own_);
     budget.names = &names; // which are the same on the level that vertices came back to
     if (options.cost == DecimationCost::GaussianMemory)
     {
@@ -179,6 +185,7 @@ private:
   IntermediateLevel intermediate_;
   std::vector<float> fineDefect_; ///< for GaussianMemory, when first needed
   std::shared_ptr<SharedStars> stars_;
+  OwnVertices own_;
 };
 
 Redecimation::Redecimation(

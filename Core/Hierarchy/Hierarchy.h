@@ -5,6 +5,7 @@
 
 #include "Base/Progress.h"
 #include "Hierarchy/DecimationLog.h"
+#include "Hierarchy/OwnVertices.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NamesBefore.h"
 #include "Requests/Guides.h"
@@ -59,8 +60,10 @@ struct HierarchyOptions
   bool isRough = false;
   /// The finest mesh is known to have one component, which saves looking for small ones; the result is the same.
   bool isConnected = false;
-  /// For Redecimation: where it remembers what removals cost, with others of the same s. Null: it alone.
+  /// For Redecimation: where it remembers what removals cost, with others of the same s, and the vertices that these do
+  /// not have. Null: it alone.
   std::shared_ptr<SharedStars> stars;
+  OwnVertices own;
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };

@@ -15,16 +15,17 @@ StarCache& SharedStars::cacheFor(DecimationCost cost)
   return cache_;
 }
 
-std::vector<Index> SharedStars::namesOf(const Level& level)
+std::vector<Index> SharedStars::namesOf(const Level& level, const OwnVertices& own)
 {
   std::vector<Index> names = level.fineVertex;
   for (std::size_t v = 0; v < names.size(); ++v)
   {
-    if (names[v] >= sharedVertices_)
+    if (own.contains(names[v]))
     {
       const Vector3& p = level.mesh.position[v];
-      const Index next = sharedVertices_ + static_cast<Index>(added_.size());
-      names[v] = added_.emplace(std::array<double, 3>{ p.x(), p.y(), p.z() }, next).first->second;
+      const std::array<double, 3> place{ p.x(), p.y(), p.z() };
+      const Index next = own.shared + static_cast<Index>(added_.size());
+      names[v] = added_.emplace(std::pair(own.features, place), next).first->second;
     }
   }
   return names;

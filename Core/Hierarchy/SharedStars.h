@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Stars that phase 2 remembers for several surfaces: one, and those that a few vertices were added to without a change
-/// of shape or features. Nearly all of their stars are the same.
+/// Stars that phase 2 remembers for several surfaces: one, and those that a few vertices and features were added to
+/// without a change of shape. Nearly all of their stars are the same.
 #pragma once
 
 #include "Hierarchy/Hierarchy.h"
+#include "Hierarchy/OwnVertices.h"
 #include "Hierarchy/StarCache.h"
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -19,18 +22,16 @@ namespace quadrille
 class SharedStars
 {
 public:
-  /// So many vertices, the first ones, are those of all the surfaces.
-  explicit SharedStars(Index sharedVertices) : sharedVertices_(sharedVertices) {}
-
   /// Empty where the stars before were those of another cost.
   StarCache& cacheFor(DecimationCost cost);
-  /// What the vertices of a level are called: by the ids that are shared, and else by their places.
-  std::vector<Index> namesOf(const Level& level);
+  /// What the vertices of a level are called: by the ids that are shared, and else by their places and the features of
+  /// their surface.
+  std::vector<Index> namesOf(const Level& level, const OwnVertices& own);
   std::size_t bytes() const { return cache_.bytes(); }
 
 private:
-  Index sharedVertices_;
-  std::map<std::array<double, 3>, Index> added_; ///< names by places
+  std::map<std::pair<std::uint64_t, std::array<double, 3>>, Index>
+    added_; ///< names by features and places
   DecimationCost cost_ = DecimationCost::Gaussian;
   StarCache cache_;
 };

@@ -307,7 +307,7 @@ RunContext makeRun(const SizedSurface& sized, const RemeshOptions& options, Resu
   if (sized.starsKey != 0)
   {
     run.surface.starsKey = sized.starsKey;
-    run.surface.sharedVertices = sized.sharedVertices;
+    run.surface.own = sized.own;
   }
   if (options.progress)
   {

@@ -44,19 +44,10 @@ void noteAdded(
 
 } // namespace
 
-bool changesSurface(const DrawnRequests& drawn)
-{
-  return !drawn.features.empty() || !drawn.sizes.empty();
-}
-
 ResultKey drawnKey(ResultKey prepared, const SurfaceInput& input, double edgeLength)
 {
   KeyMaker key(prepared);
-  key.add(edgeLength, input.drawn.features.size(), input.sizingOrders);
-  for (const FeatureRequest& feature : input.drawn.features)
-  {
-    key.add(feature.points);
-  }
+  key.add(edgeLength, input.sizingOrders);
   for (const SizeRequest& size : input.drawn.sizes)
   {
     key.add(size.place, size.radius, size.factor, size.order);
@@ -64,13 +55,20 @@ ResultKey drawnKey(ResultKey prepared, const SurfaceInput& input, double edgeLen
   return key.key();
 }
 
-void drawOn(PreparedSurface& surface, const SurfaceInput& input, double edgeLength, int threads,
+void drawSizes(PreparedSurface& surface, const SurfaceInput& input, double edgeLength, int threads,
   std::vector<std::string>& notices)
 {
   const Index before = surface.mesh.vertexCount();
-  const InsertionOptions insertion{ edgeLength, threads };
-  insertFeatures(surface, input.drawn.features, insertion, notices);
-  insertSizes(surface, input.drawn.sizes, sizingOrdersOf(input.sizingOrders, surface), insertion);
+  insertSizes(surface, input.drawn.sizes, sizingOrdersOf(input.sizingOrders, surface),
+    { edgeLength, threads });
+  noteAdded(surface, before, threads, notices);
+}
+
+void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& features,
+  double edgeLength, int threads, std::vector<std::string>& notices)
+{
+  const Index before = surface.mesh.vertexCount();
+  insertFeatures(surface, features, { edgeLength, threads }, notices);
   noteAdded(surface, before, threads, notices);
 }
 

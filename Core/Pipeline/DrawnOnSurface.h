@@ -12,15 +12,16 @@
 namespace quadrille
 {
 
-/// Whether anything of it changes the triangles, features or sizes that a run begins with: features and sizes do.
-bool changesSurface(const DrawnRequests& drawn);
-
-/// Of a prepared surface with features and sizes that were drawn on it for quads of this edge length.
+/// Of a prepared surface with sizes that were drawn on it for quads of this edge length.
 ResultKey drawnKey(ResultKey prepared, const SurfaceInput& input, double edgeLength);
 
-/// Features and sizes become those of the surface. Adds what the user should know to notices.
-void drawOn(PreparedSurface& surface, const SurfaceInput& input, double edgeLength, int threads,
+/// Sizes become those of the surface, which is one from before refinement. Adds what the user should know to notices.
+void drawSizes(PreparedSurface& surface, const SurfaceInput& input, double edgeLength, int threads,
   std::vector<std::string>& notices);
+
+/// Features become those of the surface.
+void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& features,
+  double edgeLength, int threads, std::vector<std::string>& notices);
 
 /// Where vertices were added to the triangles.
 enum class AddedVertices

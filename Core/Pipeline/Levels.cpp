@@ -78,9 +78,10 @@ void Levels::decimate(
     made->stars = store_->find<SharedStars>(made->starsKey);
     if (!made->stars)
     {
-      made->stars = std::make_shared<SharedStars>(surface.sharedVertices);
+      made->stars = std::make_shared<SharedStars>();
     }
     withStars.stars = made->stars;
+    withStars.own = surface.own;
   }
   made->levels = std::make_unique<Redecimation>(mesh, surface->hash, withStars);
   held_ = std::move(made);

@@ -64,7 +64,7 @@ PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, Resul
 {
   const SharedArray<float> sizes = surface->mesh.sizing;
   const Index vertices = surface->mesh.vertexCount();
-  return { std::move(surface), key, key, sizes, key, vertices };
+  return { std::move(surface), key, key, sizes, key, { vertices, {}, 0 } };
 }
 
 PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int threads)
@@ -91,7 +91,7 @@ PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int thr
     key.add(*plan.sizes);
   }
   return { std::make_shared<const PreparedSurface>(std::move(planned)), key.key(), keyWithoutSizes,
-    surface.sizesBefore, stars.key(), surface.sharedVertices };
+    surface.sizesBefore, stars.key(), surface.own };
 }
 
 } // namespace quadrille

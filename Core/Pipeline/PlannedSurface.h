@@ -4,6 +4,7 @@
 /// plans.
 #pragma once
 
+#include "Hierarchy/OwnVertices.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Plan.h"
 #include "Pipeline/ResultStore.h"
@@ -28,10 +29,10 @@ struct PlannedSurface
   ResultKey key = 0;              ///< guides and valences left aside
   ResultKey keyWithoutSizes = 0;  ///< as if the plan had no sizes
   SharedArray<float> sizesBefore; ///< those without the plan
-  /// Of the surface to which vertices were added without a change of shape or features, and how many it has; its own
-  /// where none were.
+  /// Of the surface to which vertices and features were added without a change of shape, and those that it does not
+  /// have; its own where none were.
   ResultKey starsKey = 0;
-  Index sharedVertices = 0;
+  OwnVertices own;
 
   const PreparedSurface& operator*() const { return *surface; }
   const PreparedSurface* operator->() const { return surface.get(); }

@@ -3,10 +3,13 @@
 #include "Pipeline/SizedSurface.h"
 
 #include "Base/Clock.h"
+#include "Base/Lists.h"
 #include "Base/Memory.h"
+#include "Base/Progress.h"
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
 #include "Features/FeatureNetwork.h"
+#include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/Notices.h"
@@ -91,7 +94,7 @@ PreparedSurface prepareInput(SurfaceInput& input, const RemeshOptions& options,
   return surface;
 }
 
-/// On the triangles as they are to stay, unlike the other requests.
+/// On the features as they are to stay, unlike the other requests.
 void placeHeld(const SurfaceInput& input, PreparedSurface& surface)
 {
   surface.sectorRequests = placeHeldVertices(input, surface);
@@ -123,7 +126,6 @@ bool recallSized(const SurfaceInput& input, const RemeshOptions& options, Result
   if (!found->hasRequests)
   {
     collectRequests(input, surface, options.threads);
-    placeHeld(input, surface);
   }
   static_cast<SizeReport&>(sized) = *found;
   sized.targetQuads = options.quads.value_or(found->targetQuads);
@@ -286,16 +288,49 @@ SizedSurface finished(
   return sized;
 }
 
+/// Of each vertex a number that tells the vertices which its features and boundaries lead to.
+std::vector<ResultKey> endsOfConstraints(const Mesh& mesh)
+{
+  std::vector<ResultKey> ends(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    if (mesh.isConstrained(h))
+    {
+      ends[mesh.origin[h]] += KeyMaker(mesh.target(h)).key();
+      ends[mesh.target(h)] += KeyMaker(mesh.origin[h]).key();
+    }
+  }
+  return ends;
+}
+
+/// Features that are drawn, on the sized surface: its triangles are no larger than quads, and their parts neither.
+void addFeatures(const std::vector<FeatureRequest>& features, const RemeshOptions& options,
+  PreparedSurface& surface, SizedSurface& sized)
+{
+  if (features.empty())
+  {
+    return;
+  }
+  const double start = secondsNow();
+  const std::size_t before = surface.mesh.faceCount();
+  const std::vector<ResultKey> ends = endsOfConstraints(surface.mesh);
+  drawFeatures(surface, features, sized.edgeLength, options.threads, sized.notices);
+  filterFeatures(surface, options, sized);
+  splitEnclosedFaces(surface);
+  splitChords(surface);
+  surface.hash = contentHash(surface.mesh, options.threads);
+  const std::vector<ResultKey> endsNow = endsOfConstraints(surface.mesh);
+  sized.own.changed = idsWhere(ends.size(), [&](Index v) { return ends[v] != endsNow[v]; });
+  sized.own.features = surface.hash;
+  sized.key = KeyMaker(sized.key).add(surface.hash).key();
+  sized.stages.add("draw", secondsNow() - start, before, surface.mesh.faceCount());
+}
+
 /// Valences at places, on the sized surface.
 void addValences(const std::vector<ValencePlace>& valences, const RemeshOptions& options,
   PreparedSurface& surface, SizedSurface& sized)
 {
-  sized.starsKey = sized.key;
-  sized.sharedVertices = surface.mesh.vertexCount();
-  if (!sized.status.ok())
-  {
-    return;
-  }
   const AddedVertices added =
     drawValences(surface, valences, sized.edgeLength, options.threads, sized.notices);
   sized.key =
@@ -303,7 +338,21 @@ void addValences(const std::vector<ValencePlace>& valences, const RemeshOptions&
   if (added == AddedVertices::OnFeatures)
   {
     sized.starsKey = sized.key;
-    sized.sharedVertices = surface.mesh.vertexCount();
+    sized.own = { surface.mesh.vertexCount(), {}, 0 };
+  }
+}
+
+/// Features, held vertices and valences, on the sized surface.
+void addDrawn(const SurfaceInput& input, const RemeshOptions& options, PreparedSurface& surface,
+  SizedSurface& sized)
+{
+  sized.starsKey = sized.key;
+  sized.own = { surface.mesh.vertexCount(), {}, 0 };
+  if (sized.status.ok())
+  {
+    addFeatures(input.drawn.features, options, surface, sized);
+    placeHeld(input, surface);
+    addValences(input.drawn.valences, options, surface, sized);
   }
 }
 
@@ -344,19 +393,18 @@ PreparedOfRun findOrPrepare(
   return prepared;
 }
 
-/// Features and sizes that are drawn become those of the prepared surface. How fine that has to be follows from the
-/// quads.
-void draw(const SurfaceInput& input, double edgeLength, const RemeshOptions& options,
+/// Sizes that are drawn become those of the prepared surface. How fine that has to be follows from the quads.
+void addSizes(const SurfaceInput& input, double edgeLength, const RemeshOptions& options,
   PreparedSurface& surface, SizedSurface& sized)
 {
   const double start = secondsNow();
   const std::size_t before = surface.mesh.faceCount();
-  drawOn(surface, input, edgeLength, options.threads, sized.notices);
+  drawSizes(surface, input, edgeLength, options.threads, sized.notices);
   sized.stages.add("draw", secondsNow() - start, before, surface.mesh.faceCount());
 }
 
 /// The same where the store may have it.
-void findOrDraw(const SurfaceInput& input, const RemeshOptions& options, ResultStore* store,
+void findOrAddSizes(const SurfaceInput& input, const RemeshOptions& options, ResultStore* store,
   PreparedOfRun& prepared, SizedSurface& sized)
 {
   const double edgeLength =
@@ -381,7 +429,7 @@ void findOrDraw(const SurfaceInput& input, const RemeshOptions& options, ResultS
     collectRequests(input, prepared.surface, options.threads);
     prepared.stored.reset();
   }
-  draw(input, edgeLength, options, prepared.surface, sized);
+  addSizes(input, edgeLength, options, prepared.surface, sized);
   prepared.sizedArea = areaOverSizes(prepared.surface);
 }
 
@@ -419,9 +467,9 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
   ResultStore* store = known.store;
   const ResultKey requests = options.closeHandles > 0 ? requestsKey(input) : 0;
   PreparedOfRun prepared = findOrPrepare(input, options, known, sized);
-  if (changesSurface(input.drawn))
+  if (!input.drawn.sizes.empty())
   {
-    findOrDraw(input, options, store, prepared, sized);
+    findOrAddSizes(input, options, store, prepared, sized);
   }
   PreparedSurface& surface = prepared.surface;
   setTarget(prepared.sizedArea, surface.boundingBoxDiagonal, options, sized);
@@ -438,16 +486,12 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
       stored = withoutRequests(prepared, sized.notices);
     }
     sizePreparedSurface(surface, options, sized);
-    if (sized.status.ok())
-    {
-      placeHeld(input, surface);
-    }
     if (sized.status.ok() && store != nullptr)
     {
       keepSized(std::move(stored), prepared.key, surface, options, *store, sized);
     }
   }
-  addValences(input.drawn.valences, options, surface, sized);
+  addDrawn(input, options, surface, sized);
   input = {};
   return finished(std::move(surface), options, store, std::move(sized));
 }
@@ -456,10 +500,15 @@ PreparedSurface prepareDrawn(SurfaceInput& input, const RemeshOptions& options,
   const ProgressCallback& progress, SizedSurface& sized)
 {
   PreparedSurface surface = prepareInput(input, options, progress, sized.stages);
-  if (changesSurface(input.drawn))
+  const double edgeLength =
+    targetEdgeLength(options, areaOverSizes(surface), surface.boundingBoxDiagonal);
+  if (!input.drawn.features.empty())
   {
-    draw(input, targetEdgeLength(options, areaOverSizes(surface), surface.boundingBoxDiagonal),
-      options, surface, sized);
+    drawFeatures(surface, input.drawn.features, edgeLength, options.threads, sized.notices);
+  }
+  if (!input.drawn.sizes.empty())
+  {
+    addSizes(input, edgeLength, options, surface, sized);
   }
   return surface;
 }
@@ -470,7 +519,10 @@ SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlac
   setTarget(areaOverSizes(surface), surface.boundingBoxDiagonal, options, sized);
   sized.key = sizedKey(preparedKey(0, options), 0, surface, options, sized);
   sizePreparedSurface(surface, options, sized);
-  addValences(valences, options, surface, sized);
+  if (sized.status.ok())
+  {
+    addValences(valences, options, surface, sized);
+  }
   return finished(std::move(surface), options, nullptr, std::move(sized));
 }
 

@@ -6,6 +6,7 @@
 
 #include "Base/Error.h"
 #include "Features/GivenUpFeatures.h"
+#include "Hierarchy/OwnVertices.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/ResultStore.h"
@@ -36,10 +37,10 @@ struct SizedSurface : SizeReport
   Status status; ///< TooLarge where more quads would be made than may
   std::shared_ptr<const PreparedSurface> surface;
   std::size_t work =
-    WorkBound::kNoBound;    ///< that its attempts may take, where it is a part of a surface
-  ResultKey key = 0;        ///< of all but guides and valences
-  ResultKey starsKey = 0;   ///< see PlannedSurface
-  Index sharedVertices = 0; ///< the same
+    WorkBound::kNoBound;  ///< that its attempts may take, where it is a part of a surface
+  ResultKey key = 0;      ///< of all but guides and valences
+  ResultKey starsKey = 0; ///< see PlannedSurface
+  OwnVertices own;        ///< the same
   /// Components that become the smallest blocks of quads, and a word on them, see countBlocks.
   std::vector<SmallDetail> blocks;
   std::string blocksNotice;

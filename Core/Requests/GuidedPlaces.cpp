@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace quadrille
 {
@@ -17,8 +18,11 @@ namespace
 /// Places along a stroke, and steps to each side of it within its radius, about; fewer where it is short.
 constexpr double kPlacesAlong = 256;
 constexpr double kStepsBeside = 6;
-/// A step along the surface is torn where it leads farther than so many steps.
-constexpr double kTornStep = 3;
+/// A step along the surface leaves it, at a boundary or a sharp edge, where it ends farther off than this part of it:
+/// what is nearest there lies on the edge, to which steps would come again and again.
+constexpr double kOffStep = 0.5;
+/// Faces turned by 60 degrees from that below a stroke, the cosine, are another side, which it says nothing of.
+constexpr double kSameSide = 0.5;
 
 /// The normal of a polygon, twice as long as its area is large.
 Vector3 areaNormal(const SurfaceInput& input, Index polygon)
@@ -56,8 +60,10 @@ public:
     step_ = length_ / kPlacesAlong;
     if (radius > 0)
     {
-      // As many along as that a place stands for about a square.
+      // As many along as that a place stands for about a square; each in the middle of what it stands for.
       step_ = std::max(step_, std::min(radius / kStepsBeside, length_ / 2));
+      step_ = length_ / std::max(1.0, std::round(length_ / step_));
+      beside_ = radius / std::max(1.0, std::round(radius / step_));
     }
   }
 
@@ -71,7 +77,8 @@ public:
       for (; length > 0 && passed <= length; passed += step_)
       {
         pollNowAndThen(found_.size());
-        addAcross(course_[i] + passed / length * along, along / length);
+        const SurfacePlaces::Place at = placeBelow(course_[i] + passed / length * along);
+        addAcross(at, along / length, step_);
       }
       passed -= length;
     }
@@ -84,56 +91,72 @@ public:
   }
 
 private:
-  /// At a place of the course, and to both sides of it.
-  void addAcross(const Vector3& p, const Vector3& along)
+  /// Of a place of the course, whose side counts from now on.
+  SurfacePlaces::Place placeBelow(const Vector3& p)
   {
     const SurfacePlaces::Place at = places_.nearestPlace(p);
-    add(at, along);
-    if (radius_ > 0)
+    side_ = normalAt(at);
+    return at;
+  }
+  /// At a place of the course or, where it has a radius, to both sides of it. length: that they stand for along it.
+  void addAcross(const SurfacePlaces::Place& at, const Vector3& along, double length)
+  {
+    if (radius_ == 0)
     {
-      const Vector3 aside = areaNormal(input_, at.polygon).stableNormalized().cross(along);
-      march(at, aside, along);
-      march(at, -aside, along);
+      add(at, along, length * length);
+      return;
     }
+    const Vector3 aside = normalAt(at).cross(along);
+    march(at, aside, along, length);
+    march(at, -aside, along, length);
   }
   /// Beyond an end of the course.
   void addBeyond(const Vector3& end, const Vector3& out)
   {
-    SurfacePlaces::Place at = places_.nearestPlace(end);
+    SurfacePlaces::Place at = placeBelow(end);
     Vector3 along = out;
-    for (double way = step_; way <= radius_; way += step_)
+    for (double step = 0.5 * beside_, way = step; way < radius_; step = beside_, way += step)
     {
-      const SurfacePlaces::Place next = stepFrom(at, along);
-      if ((next.point - at.point).norm() > kTornStep * step_ ||
-        segments_.at(next.point).distance > radius_ || next.point == at.point)
+      const std::optional<SurfacePlaces::Place> next = stepFrom(at, along, step);
+      if (!next || segments_.at(next->point).distance > radius_)
       {
         return;
       }
-      along = inPlane(next.point - at.point, areaNormal(input_, next.polygon).stableNormalized());
-      at = next;
-      addAcross(at.point, along);
+      at = *next;
+      along = inPlane(along, normalAt(at));
+      addAcross(at, along, beside_);
     }
   }
-  SurfacePlaces::Place stepFrom(const SurfacePlaces::Place& at, const Vector3& direction) const
+  Vector3 normalAt(const SurfacePlaces::Place& at) const
   {
-    const Vector3 normal = areaNormal(input_, at.polygon).stableNormalized();
-    return places_.nearestPlace(at.point + step_ * inPlane(direction, normal));
+    return areaNormal(input_, at.polygon).stableNormalized();
   }
-  void march(SurfacePlaces::Place at, Vector3 direction, const Vector3& along)
+  bool isSameSide(const SurfacePlaces::Place& at) const
+  {
+    return normalAt(at).dot(side_) > kSameSide;
+  }
+  /// None where that leaves the surface, or the side of the course.
+  std::optional<SurfacePlaces::Place> stepFrom(
+    const SurfacePlaces::Place& at, const Vector3& direction, double step) const
+  {
+    const Vector3 p = at.point + step * inPlane(direction, normalAt(at));
+    const SurfacePlaces::Place next = places_.nearestPlace(p);
+    const bool isOff = (next.point - p).norm() > kOffStep * step;
+    return isOff || !isSameSide(next) ? std::nullopt : std::optional(next);
+  }
+  void march(SurfacePlaces::Place at, Vector3 direction, const Vector3& along, double length)
   {
     const Vector3 begin = at.point;
-    for (double way = step_; way <= radius_; way += step_)
+    for (double step = 0.5 * beside_, way = step; way < radius_; step = beside_, way += step)
     {
-      const SurfacePlaces::Place next = stepFrom(at, direction);
-      const double moved = (next.point - at.point).norm();
-      // Near the boundary nearest places come back.
-      if (!(moved > 0.5 * step_) || moved > kTornStep * step_)
+      const std::optional<SurfacePlaces::Place> next = stepFrom(at, direction, step);
+      if (!next)
       {
         return;
       }
-      const NearestSegments::Place nearest = segments_.at(next.point);
-      const double distance = nearest.distance;
-      if (distance > radius_)
+      at = *next;
+      const NearestSegments::Place nearest = segments_.at(at.point);
+      if (nearest.distance > radius_)
       {
         return;
       }
@@ -145,19 +168,18 @@ private:
       {
         return;
       }
-      direction = next.point - at.point;
-      at = next;
-      add(at, isEnd ? along : nearest.direction);
+      direction = inPlane(direction, normalAt(at));
+      add(at, isEnd ? along : nearest.direction, length * beside_);
     }
   }
-  void add(const SurfacePlaces::Place& at, const Vector3& direction)
+  void add(const SurfacePlaces::Place& at, const Vector3& direction, double area)
   {
     GuidedPlace guided;
     guided.polygon = at.polygon;
     guided.place = at.point;
-    guided.normal = areaNormal(input_, at.polygon).stableNormalized();
+    guided.normal = normalAt(at);
     guided.direction = inPlane(direction, guided.normal);
-    guided.area = step_ * step_;
+    guided.area = area;
     guided.weight = weight_;
     found_.push_back(guided);
   }
@@ -168,6 +190,8 @@ private:
   NearestSegments segments_;
   double weight_, radius_;
   double length_ = 0, step_ = 0;
+  double beside_ = 0; ///< the step to the sides and beyond the ends; 0 without a radius
+  Vector3 side_ = Vector3::Zero(); ///< the normal below the last place of the course
   std::vector<GuidedPlace> found_;
 };
 

@@ -217,10 +217,10 @@ class RandomSession:
         self.random = random.Random(seed)
         self.session = quadrille.Session(self.mesh, quads=quads, threads=1)
         self.points = self.session._points
-        self.faces = self.mesh.GetNumberOfPolys()
+        _, faces = quadrille.to_arrays(self.mesh)
+        self.faces = len(faces)
         self.corners = None
         if inside:
-            _, faces = quadrille.to_arrays(self.mesh)
             self.corners = self.points[faces[:, :3]]
             areas = numpy.linalg.norm(numpy.cross(self.corners[:, 1] - self.corners[:, 0],
                                                   self.corners[:, 2] - self.corners[:, 0]), axis=1)

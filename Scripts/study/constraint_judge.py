@@ -79,15 +79,16 @@ def in_triangles(places, a, b, c):
 
 
 def sampled(line, step):
-    """Places along a polyline, at most a step apart, and the direction at each."""
-    places, directions = [], []
+    """Places along a polyline, at most a step apart, the direction at each, and the length that it stands for."""
+    places, directions, lengths = [], [], []
     for a, b in zip(line[:-1], line[1:]):
         length = numpy.linalg.norm(b - a)
         if length > 0:
             count = max(1, math.ceil(length / step))
             places.append(a + (b - a) * ((numpy.arange(count) + 0.5) / count)[:, None])
             directions.append(numpy.repeat([(b - a) / length], count, axis=0))
-    return numpy.concatenate(places), numpy.concatenate(directions)
+            lengths.append(numpy.full(count, length / count))
+    return numpy.concatenate(places), numpy.concatenate(directions), numpy.concatenate(lengths)
 
 
 def cut_to(points, triangles, step):
@@ -283,7 +284,7 @@ class Course:
     def __init__(self, line, edge):
         self.line = line
         self.length = length_of(line)
-        self.places, self.directions = sampled(line, STEP * edge)
+        self.places, self.directions, self.lengths = sampled(line, STEP * edge)
         self.tree = cKDTree(self.places)
         steps = numpy.linalg.norm(numpy.diff(self.places, axis=0), axis=1)
         self.at = numpy.concatenate(([0], numpy.cumsum(steps)))
@@ -605,7 +606,7 @@ def judge_stroke(surface, quads, course, radius, clear=0):
         which, places, weights, near = which[faces], places[faces], weights[faces], near[faces]
     else:
         which, places = quads.below(course.places, normals), course.places
-        near, weights = numpy.arange(len(places)), numpy.ones(len(places))
+        near, weights = numpy.arange(len(places)), course.lengths
     counts = surface.to_feature(places) >= clear * quads.length_at(course.places)
     which, places, weights, near = which[counts], places[counts], weights[counts], near[counts]
     if not len(which):

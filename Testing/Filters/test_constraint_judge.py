@@ -155,6 +155,15 @@ class Judge(unittest.TestCase):
             verdict = judge.judge_stroke(self.surface, grid(angle), course, 0.1)
             self.assertEqual(verdict.ok, angle <= judge.STROKE)
             self.assertAlmostEqual(verdict.deviation, angle, delta=1e-3)
+        # Each part of a course counts by its length, into however many pieces it comes: half of this one, which crosses
+        # no quad that was turned, is one piece, the other half fifty.
+        line = numpy.array([(0.5, 0.5, 1)] + [(0.5 - 0.3 * k / 50, 0.5, 1) for k in range(1, 51)])
+        pieces = judge.Course(numpy.concatenate((line[::-1], [(0.8, 0.5, 1)])), 10 * self.surface.edge)
+        turned = grid()
+        there = (turned.points[:, 2] == 1) & (turned.points[:, 0] < 0.5) & (turned.points[:, 0] > 0)
+        turned.points[there, 1] += 0.1 * (turned.points[there, 0] - 0.5)
+        verdict = judge.judge_stroke(self.surface, judge.Quads(turned.points, turned.quads), pieces, 0)
+        self.assertAlmostEqual(verdict.deviation, 0.5 * math.degrees(math.atan(0.1)), delta=0.2)
         # Where the stroke is at right angles to a family it is along the other one.
         self.assertTrue(judge.judge_stroke(self.surface, grid(88), course, 0.1).ok)
 

@@ -494,7 +494,8 @@ TEST(Hierarchy, ASurfaceWithAVertexMoreKnowsTheStarsOfTheOneWithout)
   const PreparedSurface surface = prepareSurface(toInput(bumpySphere(5)), {});
   HierarchyOptions options = makeOptions(0.1, 200);
   HierarchyOptions shared = options;
-  shared.stars = std::make_shared<SharedStars>(surface.mesh.vertexCount());
+  shared.stars = std::make_shared<SharedStars>();
+  shared.own.shared = surface.mesh.vertexCount();
   Redecimation(surface.mesh, 1, shared).update(shared);
   for (const Index f : { 100U, 2000U })
   {
