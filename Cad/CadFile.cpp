@@ -4,6 +4,7 @@
 
 #include "Base/Refuse.h"
 #include "Cad/CadFormat.h"
+#include "Cad/Curvatures.h"
 #include "Cad/Guarded.h"
 #include "Cad/Heal.h"
 #include "Cad/Isolated.h"
@@ -524,6 +525,7 @@ void tessellateParts(const TessellationOptions& options, std::vector<CadPart>& p
     if (!isInstance || move.IsNegative())
     {
       parts[i].surface = tessellate(parts[i].shape, options);
+      addCurvatures(parts[i].shape, parts[i].surface);
       continue;
     }
     parts[i].surface = first->surface;
