@@ -3,11 +3,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """CAD files to quads: what is kept of them, for each file and number of quads.
 
-  cad_table.py BUILD_DIR STEP_DIR [--quads 5000,2000,10000] [--order 1] [--only PART] [--sample 7]
+  cad_table.py BUILD_DIR STEP_DIR [--quads 5000,2000,10000] [--order 1] [--only PART] [--sample 7] [--lost]
 
 Prints a row each: seconds, quads, the share of the length of sharp edges longer than two edge lengths that chains of
 the quads' edges cover, the share of their corners that are points of the quads, nodes on the exact shape, and the
-distance of nodes from it over the diagonal (99.9 % of them, and the largest), by Testing/Cad/cad_measure.
+distance of nodes from it over the diagonal (99.9 % of them, and the largest), by Testing/Cad/cad_measure. With --lost
+also each of these edges that is not kept whole: its id, the length that is not, its length, and its middle.
 """
 import argparse
 import pathlib
@@ -26,6 +27,7 @@ def arguments():
     parser.add_argument("--quads", default="5000,2000,10000")
     parser.add_argument("--order", type=int, default=1)
     parser.add_argument("--only", default="")
+    parser.add_argument("--lost", action="store_true")
     parser.add_argument("--sample", type=int, default=7, help="every so manieth node is measured")
     return parser.parse_args()
 
@@ -59,7 +61,8 @@ def covered(line, chords):
 
 
 def kept_edges(quads, lines, size):
-    """Length kept and length of the sharp edges longer than two edge lengths; corners kept and their number."""
+    """Length kept and length of the sharp edges longer than two edge lengths; corners kept and their number; and rows
+    of the edges that are not kept whole."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     points = vtk_to_numpy(quads.GetPoints().GetData())
     place = vtk_to_numpy(quads.GetPointData().GetArray("CadPlace"))
@@ -77,6 +80,7 @@ def kept_edges(quads, lines, size):
         elif not found:  # between two vertices: of whichever edge runs there
             of_edge.setdefault(None, []).append((points[a], points[b]))
     kept = length = corners_kept = corners_all = 0
+    lost = []
     all_points = vtk_to_numpy(lines.GetPoints().GetData())
     kinds, edge_ids = lines.GetCellData().GetAbstractArray("CadEdgeKind"), lines.GetCellData().GetArray("CadEdgeId")
     for cell in range(lines.GetNumberOfCells()):
@@ -88,10 +92,12 @@ def kept_edges(quads, lines, size):
             continue
         part, whole = covered(line, of_edge.get(edge_ids.GetValue(cell), []))
         kept, length = kept + part, length + whole
+        if part < 0.99 * whole:
+            lost.append((edge_ids.GetValue(cell), whole - part, whole, line[len(line) // 2]))
         if not numpy.allclose(line[0], line[-1]):
             corners_all += 2
             corners_kept += sum(tuple(numpy.round(end / size, 4)) in vertices for end in (line[0], line[-1]))
-    return kept, length, corners_kept, corners_all
+    return (kept, length, corners_kept, corners_all), lost
 
 
 def distances(measure, part, grid, sample, folder):
@@ -138,17 +144,19 @@ def main():
                 reader.JoinPartsOn()
                 reader.AddObserver("WarningEvent", lambda caller, event: None)
                 reader.Update()
-                kept = numpy.array(kept_edges(grid, reader.GetEdges(), size))
+                kept, lost = kept_edges(grid, reader.GetEdges(), size)
                 sums += kept
             else:
                 reader = vtkXMLUnstructuredGridReader()
                 reader.SetFileName(str(mesh))
                 reader.Update()
-                grid, kept = reader.GetOutput(), numpy.ones(4)
+                grid, kept, lost = reader.GetOutput(), numpy.ones(4), []
             away, _, _, off, nodes = distances(measure, part, grid, options.sample, folder)
             print(part.name, count, f"{seconds:.1f}", grid.GetNumberOfCells(),
                   f"{kept[0] / kept[1]:.4f}" if kept[1] else "-", f"{kept[2] / kept[3]:.4f}" if kept[3] else "-",
                   off, nodes, f"{numpy.quantile(away, 0.999):.1e}", f"{away.max():.1e}", flush=True)
+            for edge, missing, whole, middle in lost if options.lost else []:
+                print(f"  lost: edge {edge}, {missing:.3g} of {whole:.3g} at", *(f"{x:.5g}" for x in middle), flush=True)
     if options.order == 1 and sums[1]:
         print(f"all: {sums[0] / sums[1]:.4%} of the length, {sums[2] / max(1, sums[3]):.4%} of the corners")
 
