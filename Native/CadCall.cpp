@@ -19,7 +19,7 @@ namespace quadrille::native
 namespace
 {
 
-/// Tessellation in the field data, as vtkQuadrilleCADReader has it: its options, and whether tangent edges are followed.
+/// In the field data, as of vtkQuadrilleCADReader: options of the tessellation, and whether tangent edges are followed.
 constexpr std::size_t kTessellationNumbers = 4;
 
 std::vector<std::uint8_t> coloursOf(const CadPart& part)
