@@ -4,6 +4,7 @@
 
 #include "Base/Refuse.h"
 #include "Cad/CadFormat.h"
+#include "Cad/Curvatures.h"
 #include "Cad/Guarded.h"
 #include "Cad/Heal.h"
 #include "Cad/Isolated.h"
@@ -85,8 +86,8 @@ std::string damageAtBegin(const std::string& path, CadFormat format)
   return {};
 }
 
-/// STEP files end with a word of their own; without it the rest is missing.
-bool endsAsStep(const std::string& path)
+/// Its last bytes.
+std::string endOf(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const auto size = static_cast<std::streamoff>(file.tellg());
@@ -94,7 +95,31 @@ bool endsAsStep(const std::string& path)
   file.seekg(from);
   std::string end(static_cast<std::size_t>(size - from), '\0');
   file.read(end.data(), static_cast<std::streamsize>(end.size()));
-  return end.find("END-ISO-10303-21") != std::string::npos;
+  return end;
+}
+
+/// STEP files end with a word of their own; without it the rest is missing.
+bool endsAsStep(const std::string& path)
+{
+  return endOf(path).find("END-ISO-10303-21") != std::string::npos;
+}
+
+/// The last line says T, for termination, in its column 73.
+bool endsAsIges(const std::string& path)
+{
+  constexpr std::size_t kColumn = 72;
+  std::string end = endOf(path);
+  end.resize(end.find_last_not_of(" \r\n") + 1);
+  const std::string line = end.substr(end.find_last_of("\r\n") + 1);
+  return line.size() > kColumn && line[kColumn] == 'T';
+}
+
+void tellEnd(bool isWhole, CadFile& file)
+{
+  if (!isWhole)
+  {
+    file.notices.push_back("the end of the file is missing: what was in it is, too");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -407,10 +432,7 @@ void readStep(const std::string& path, CadFile& file)
   Handle(TDocStd_Document) document = newDocument();
   refuseIf(!reader.Transfer(document), path, ": is damaged: no shape can be made of its data");
   tellUnit(unit, file);
-  if (!endsAsStep(path))
-  {
-    file.notices.push_back("the end of the file is missing: what was in it is, too");
-  }
+  tellEnd(endsAsStep(path), file);
   PartCollector(file, document).collect();
 }
 
@@ -421,7 +443,8 @@ void readIges(const std::string& path, CadFile& file)
   reader.SetColorMode(Standard_True);
   reader.SetLayerMode(Standard_False);
   const IFSelect_ReturnStatus status = reader.ReadFile(path.c_str());
-  refuseIf(status != IFSelect_RetDone, path, ": is damaged: ", wordsOf(status));
+  refuseIf(status != IFSelect_RetDone, path, ": is damaged: ", wordsOf(status),
+    endsAsIges(path) ? "" : ", and its end is missing");
   const Handle(TCollection_HAsciiString) name = reader.IGESModel()->GlobalSection().UnitName();
   const std::string word = name.IsNull() ? "" : lower(name->ToCString());
   const std::string unit = word == "m" ? "metre"
@@ -432,6 +455,7 @@ void readIges(const std::string& path, CadFile& file)
   Handle(TDocStd_Document) document = newDocument();
   refuseIf(!reader.Transfer(document), path, ": is damaged: no shape can be made of its data");
   tellUnit(unit, file);
+  tellEnd(endsAsIges(path), file);
   PartCollector(file, document).collectSheets(std::filesystem::path(path).stem().string());
 }
 
@@ -524,6 +548,7 @@ void tessellateParts(const TessellationOptions& options, std::vector<CadPart>& p
     if (!isInstance || move.IsNegative())
     {
       parts[i].surface = tessellate(parts[i].shape, options);
+      addCurvatures(parts[i].shape, parts[i].surface);
       continue;
     }
     parts[i].surface = first->surface;

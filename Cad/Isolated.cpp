@@ -87,7 +87,8 @@ void sendText(int file, const char* text)
 bool receive(int file, double seconds, std::vector<std::uint8_t>& bytes)
 {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  std::vector<std::uint8_t> block(std::size_t{ 1 } << 20);
+  // As much as a pipe holds. Each page that is touched here is copied first, while the child has it, too.
+  std::vector<std::uint8_t> block(std::size_t{ 1 } << 16);
   for (;;)
   {
     const double left =

@@ -136,6 +136,7 @@ void passEdge(Pass& bytes, Edge& edge)
   bytes.pass(edge.angle);
   bytes.pass(edge.points);
   bytes.pass(edge.parameters);
+  bytes.pass(edge.curvatures);
 }
 
 template <class Pass, class Surface>
@@ -145,6 +146,7 @@ void passSurface(Pass& bytes, Surface& surface)
   bytes.pass(surface.triangles);
   bytes.pass(surface.faceOf);
   bytes.pass(surface.parameters);
+  bytes.pass(surface.curvatures);
   bytes.pass(surface.edges);
   bytes.pass(surface.vertexPoints);
   bytes.pass(surface.surfaceKinds);

@@ -3,6 +3,7 @@
 #include "Cad/Placement.h"
 
 #include "Base/Refuse.h"
+#include "Cad/Curvatures.h"
 #include "Cad/Guarded.h"
 #include "Cad/ShapeData.h"
 #include "Mesh/NearestTriangle.h"
@@ -148,25 +149,12 @@ public:
 
   void addDirections(const Vector2& uv, CadPlace& place) const
   {
-    gp_Pnt point;
-    gp_Vec du, dv, duu, dvv, duv;
-    surface_.D2(uv.x(), uv.y(), point, du, dv, duu, dvv, duv);
-    const Vector3 a = vectorOf(du.XYZ()), b = vectorOf(dv.XYZ());
-    const Vector3 across = a.cross(b);
-    const double area = across.norm();
-    if (!(area > 1e-12 * (a.squaredNorm() + b.squaredNorm())))
+    if (const std::optional<SurfaceBend> bend = bendOf(surface_, uv))
     {
-      return; // a pole
+      const auto [larger, smaller] = bend->curvatures;
+      place.normal = isTurned_ ? Vector3(-bend->normal) : bend->normal;
+      place.curvatures = isTurned_ ? std::array{ -smaller, -larger } : bend->curvatures;
     }
-    place.normal = across / (isTurned_ ? -area : area);
-    const double e = a.squaredNorm(), f = a.dot(b), g = b.squaredNorm();
-    const double l = vectorOf(duu.XYZ()).dot(place.normal);
-    const double m = vectorOf(duv.XYZ()).dot(place.normal);
-    const double n = vectorOf(dvv.XYZ()).dot(place.normal);
-    const double mean = (e * n - 2 * f * m + g * l) / (2 * area * area);
-    const double gauss = (l * n - m * m) / (area * area);
-    const double root = std::sqrt(std::max(0.0, mean * mean - gauss));
-    place.curvatures = { mean + root, mean - root };
   }
 
 private:

@@ -49,6 +49,8 @@ struct CadEdge
   double angle = 0;
   std::vector<Index> points; ///< in their order along the curve; a closed one ends where it begins
   std::vector<double> parameters; ///< #points, of its curve; ascending
+  /// #points - 1, or empty: the largest curvature of the curve between two of them, 1 over the unit of the shape.
+  std::vector<float> curvatures;
 };
 
 struct TessellationOptions
@@ -68,15 +70,18 @@ struct CadSurface
   std::vector<std::array<Index, 3>> triangles; ///< turned as the faces of the shape are
   std::vector<Index> faceOf;                   ///< #triangles; id of a face
   std::vector<std::array<Vector2, 3>>
-    parameters;                    ///< #triangles; of the corners, on the surface of the face
-  std::vector<CadEdge> edges;      ///< by id
-  std::vector<Index> vertexPoints; ///< by id; kInvalidIndex where no face has it
+    parameters; ///< #triangles; of the corners, on the surface of the face
+  /// #triangles, or empty: the largest absolute normal curvature of the face at the corners, 1 over the unit of the
+  /// shape; NaN where it has none.
+  std::vector<std::array<float, 3>> curvatures;
+  std::vector<CadEdge> edges;               ///< by id
+  std::vector<Index> vertexPoints;          ///< by id; kInvalidIndex where no face has it
   std::vector<CadSurfaceKind> surfaceKinds; ///< by id of the face
   double chordError = 0;                    ///< that was asked for, in the unit of the shape
   std::vector<std::string> notices;         ///< faces without triangles, edges that do not fit
 };
 
-/// Throws InvalidInput where no face has triangles, and where an option is out of its range.
+/// Without curvatures. Throws InvalidInput where no face has triangles, and where an option is out of its range.
 CadSurface tessellate(const CadShape& shape, const TessellationOptions& options = {});
 
 } // namespace quadrille

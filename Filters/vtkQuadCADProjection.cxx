@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadCADProjection.h"
 
-#include "Cad/Calls.h"
+#include "Cad/PlacedQuads.h"
 #include "Common/NewArray.h"
 #include "Files/CadData.h"
 #include "Files/CadNames.h"
@@ -115,20 +115,12 @@ int vtkQuadCADProjection::FillInputPortInformation(int, vtkInformation* info)
 void vtkQuadCADProjection::Project(vtkPointSet* input, vtkPointSet* output)
 {
   output->ShallowCopy(input);
-  const quadrille::CadCalls& cad = quadrille::cadCalls();
   const quadrille::CadSource source = quadrille::cadSource(input->GetFieldData());
   quadrille::PlacementOptions options;
   options.reach = this->Reach;
   options.tangentEdges = source.tangentEdges;
-  const std::vector<Vector3> before = pointsOf(input);
-  const quadrille::CadSurface surface = cad.tessellate(source.shape, source.options);
-  std::vector<CadPlace> places = cad.placeOnShape(source.shape, surface, before, options);
-  const std::vector<std::array<quadrille::Index, 4>> quads = cornersOf(input);
-  if (isFirstOrder(input)) // else nodes between the corners would have to follow
-  {
-    cad.takeVertices(source.shape, surface, quads, places);
-  }
-  cad.keepQuads(quads, before, places);
+  const std::vector<CadPlace> places = quadrille::placeQuads(source.shape, source.options,
+    { pointsOf(input), cornersOf(input), isFirstOrder(input) }, options);
   writePlaces(places, output);
   this->NodesOnGeometry = 0;
   for (const CadPlace& place : places)

@@ -34,6 +34,12 @@ void vtkQuadNamedSizes::SetSizes(const char* sizes)
 }
 
 //------------------------------------------------------------------------------
+void vtkQuadNamedSizes::AddSize(const char* name, const char* factor)
+{
+  this->SetSizes((this->Sizes + name + "=" + factor + "\n").c_str());
+}
+
+//------------------------------------------------------------------------------
 int vtkQuadNamedSizes::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());

@@ -36,6 +36,14 @@ public:
   const char* GetSizes() { return this->Sizes.c_str(); }
   ///@}
 
+  ///@{
+  /**
+   * The same, one by one: a name and the factor as text, behind those that are there; none.
+   */
+  void AddSize(const char* name, const char* factor);
+  void ClearSizes() { this->SetSizes(""); }
+  ///@}
+
   /// Why the last execution gave nothing; empty after success.
   const char* GetOutcomeText() { return this->OutcomeText.c_str(); }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadRemesh.h"
 
+#include "Base/Angles.h"
 #include "Base/Error.h"
 #include "Blocks/Blocks.h"
 #include "Blocks/LevelMemory.h"
@@ -333,6 +334,10 @@ void vtkQuadRemesh::SetSizes(quadrille::RemeshOptions& options) const
   {
     options.sizes.chordError = this->ChordError;
   }
+  if (this->AngleAQuad > 0)
+  {
+    options.sizes.turn = quadrille::radians(this->AngleAQuad);
+  }
   options.sizes.gapQuads = this->GapQuads;
   options.sizes.smallest = this->SmallestSize;
   options.sizes.largest = this->LargestSize;
@@ -346,6 +351,7 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "Integers " << this->Integers << '\n'
      << "AnisotropyLimit " << this->AnisotropyLimit << '\n'
      << "ChordError " << this->ChordError << '\n'
+     << "AngleAQuad " << this->AngleAQuad << '\n'
      << "GapQuads " << this->GapQuads << '\n'
      << "SmallestSize " << this->SmallestSize << '\n'
      << "LargestSize " << this->LargestSize << '\n'
@@ -391,6 +397,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SmoothingSteps: " << this->SmoothingSteps << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "ChordError: " << this->ChordError << "\n";
+  os << indent << "AngleAQuad: " << this->AngleAQuad << "\n";
   os << indent << "GapQuads: " << this->GapQuads << "\n";
   os << indent << "SmallestSize: " << this->SmallestSize << "\n";
   os << indent << "LargestSize: " << this->LargestSize << "\n";

@@ -185,9 +185,10 @@ public:
   ///@{
   /**
    * By how much an edge of the quads may lie off the surface, in units of the input: on a normal curvature k edges are
-   * at most sqrt(8 ChordError / k) long, within SmallestSize and LargestSize. The curvature is taken over about a
-   * target edge length. With NumberOfQuads the quads are distributed so that there are as many. The array Sizing may
-   * ask for less. 0: edges do not depend on the curvature. Default: 0.
+   * at most sqrt(8 ChordError / k) long, within SmallestSize and LargestSize. The curvature is that of the cell array
+   * KnownCurvature, as surfaces of vtkQuadrilleCADReader have it; else it is taken over about a target edge length.
+   * With NumberOfQuads the quads are distributed so that there are as many. The array Sizing may ask for less. 0: edges
+   * do not depend on the curvature so. Default: 0.
    */
   vtkSetClampMacro(ChordError, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(ChordError, double);
@@ -195,9 +196,18 @@ public:
 
   ///@{
   /**
+   * By how many degrees the surface may turn along an edge of the quads: edges are at most AngleAQuad / k long, with
+   * all else as for ChordError. 0: edges do not depend on the curvature so. Default: 0.
+   */
+  vtkSetClampMacro(AngleAQuad, double, 0.0, 180.0);
+  vtkGetMacro(AngleAQuad, double);
+  ///@}
+
+  ///@{
+  /**
    * So many edges at least go into the thickness of the solid, and into the gap to an opposite sheet outside, within
-   * SmallestSize and LargestSize. The smallest of this, ChordError and the array Sizing counts. 0: edges do not depend
-   * on that. Default: 0.
+   * SmallestSize and LargestSize. The smallest of this, ChordError, AngleAQuad and the array Sizing counts. 0: edges do
+   * not depend on that. Default: 0.
    */
   vtkSetClampMacro(GapQuads, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(GapQuads, double);
@@ -205,8 +215,8 @@ public:
 
   ///@{
   /**
-   * The range of what ChordError and GapQuads ask for, over the target edge length: SmallestSize above 0 and at most 1,
-   * LargestSize at least 1. Defaults: 0.2 and 1.
+   * The range of what ChordError, AngleAQuad and GapQuads ask for, over the target edge length: SmallestSize above 0
+   * and at most 1, LargestSize at least 1. Defaults: 0.2 and 1.
    */
   vtkSetMacro(SmallestSize, double);
   vtkGetMacro(SmallestSize, double);
@@ -611,6 +621,7 @@ private:
   int SmallComponents = KEEP_SMALL_COMPONENTS;
   int FailedComponents = LEAVE_OUT_FAILED_COMPONENTS;
   double ChordError = 0;
+  double AngleAQuad = 0;
   double GapQuads = 0;
   double SmallestSize = 0.2;
   double LargestSize = 1;

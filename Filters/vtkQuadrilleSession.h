@@ -43,10 +43,10 @@ public:
   /**
    * Begins with a surface and the arrays that it has (see vtkQuadrilleSurfaceAlgorithm), and with settings as JSON:
    * one of "quads", "edge_length" and "relative_edge_length", and "feature_angle" (radians; null: none),
-   * "feature_criterion" ("creases" or "angle"), "chord_error" (null: off), "gap_quads", "smallest_size",
-   * "largest_size", "curvature_guides" (null: off), "method", "integers", "coarse_vertices", "close_handles",
-   * "small_details", "small_components", "anisotropy_limit", "final_quality", "distortion_metric",
-   * "maximum_number_of_quads", "smoothing_steps", "warm_start", "threads", "memory_limit" (bytes).
+   * "feature_criterion" ("creases" or "angle"), "chord_error" (null: off), "angle_a_quad" (radians; null: off),
+   * "gap_quads", "smallest_size", "largest_size", "curvature_guides" (null: off), "method", "integers",
+   * "coarse_vertices", "close_handles", "small_details", "small_components", "anisotropy_limit", "final_quality",
+   * "distortion_metric", "maximum_number_of_quads", "smoothing_steps", "warm_start", "threads", "memory_limit" (bytes).
    * What went before is let go.
    */
   bool Start(vtkPolyData* surface, const std::string& settings);

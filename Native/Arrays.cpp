@@ -5,6 +5,8 @@
 #include "Base/Refuse.h"
 #include "Requests/AskedValues.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -85,6 +87,14 @@ SurfaceInput surfaceFrom(const py::dict& surface)
   input.polygonPoints.assign(corners.begin(), corners.end());
   input.featureEdges = valuesOf<std::uint8_t>(surface, "feature_edges");
   input.patchIds = valuesOf<std::int64_t>(surface, "patch_ids");
+  input.featuresYield = surface.contains("designed");
+  const auto known = valuesOf<float>(surface, "known_curvature");
+  for (std::size_t i = 0; i + 5 < known.size(); i += 6)
+  {
+    KnownCurvature& own = input.curvatures.emplace_back();
+    std::copy_n(known.begin() + static_cast<std::ptrdiff_t>(i), 3, own.atCorner.begin());
+    std::copy_n(known.begin() + static_cast<std::ptrdiff_t>(i) + 3, 3, own.alongSide.begin());
+  }
   readGuides(surface, input);
   input.targetValences = valuesOf<int>(surface, "target_valence");
   for (std::size_t i = 0; i < input.targetValences.size(); ++i)

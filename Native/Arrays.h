@@ -64,7 +64,8 @@ py::array rowsFrom(const std::vector<std::array<From, kSize>>& rows)
 }
 
 /// surface: "points" (n by 3), "offsets", "corners", and of what is asked for any of "feature_edges", "patch_ids",
-/// "guiding_direction", "guiding_weight", "target_valence", "sizing", see SurfaceInput.
+/// "guiding_direction", "guiding_weight", "target_valence", "sizing", "known_curvature" (6 a polygon), "designed" (its
+/// features yield), see SurfaceInput.
 SurfaceInput surfaceFrom(const py::dict& surface);
 
 } // namespace quadrille::native

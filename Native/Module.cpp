@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
 #include "Export/OutputFile.h"
+#ifdef QUADRILLE_WITH_CAD
+#include "Native/CadCall.h"
+#endif
 #include "Native/Errors.h"
 #include "Native/Files.h"
 #include "Native/RemeshCall.h"
@@ -56,4 +59,7 @@ PYBIND11_MODULE(_native, module)
   module.def("remesh", &quadrille::native::remeshCall);
   quadrille::native::bindSession(module);
   quadrille::native::bindFiles(module);
+#ifdef QUADRILLE_WITH_CAD
+  quadrille::native::bindCad(module);
+#endif
 }

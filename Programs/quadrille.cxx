@@ -137,15 +137,19 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter, std::string& byNam
     "by how much edges of the quads may lie off the surface, in units of the input: they are "
     "shorter where it is curved; with --quads as many quads are distributed so");
   options.addNumber(
+    "angle-a-quad", "DEG", { 0.01, 180 }, [filter](double angle) { filter->SetAngleAQuad(angle); },
+    "by how much the surface may turn along an edge of the quads, in degrees; else as "
+    "--chord-error");
+  options.addNumber(
     "gap-quads", "N", { 0, 1000 }, [filter](double quads) { filter->SetGapQuads(quads); },
     "so many edges at least go into the thickness of the solid and into gaps outside (default 0: "
     "sizes do not depend on that)");
   options.addNumber(
     "smallest-size", "R", { 0.001, 1 }, [filter](double size) { filter->SetSmallestSize(size); },
-    "the least that both lead to, over the target edge length (default 0.2)");
+    "the least that these lead to, over the target edge length (default 0.2)");
   options.addNumber(
     "largest-size", "R", { 1, 1000 }, [filter](double size) { filter->SetLargestSize(size); },
-    "the most that both leave, over the target edge length (default 1)");
+    "the most that these leave, over the target edge length (default 1)");
   options.addTexts(
     "size", "NAME=R", [&byName](const std::string& size) { byName += size + "\n"; },
     "edges are R times as long on the faces of this name (cell array PatchNames, or of a CAD "

@@ -416,6 +416,7 @@ JoinedParts joinParts(std::vector<SurfaceInput> parts, const PartContacts& conta
   const bool weights = anyHas(parts, &SurfaceInput::guideWeights);
   const bool valences = anyHas(parts, &SurfaceInput::targetValences);
   const bool sizes = anyHas(parts, &SurfaceInput::sizing);
+  const bool curvatures = anyHas(parts, &SurfaceInput::curvatures);
   std::map<std::pair<std::size_t, std::int64_t>, std::int64_t>
     patches;                                           // new ids, in the order of their first use
   std::vector<Index> jointOf(contacts.pointOf.size()); // per point: its number in the joint surface
@@ -469,6 +470,7 @@ JoinedParts joinParts(std::vector<SurfaceInput> parts, const PartContacts& conta
     appendOr(all.featureEdges, part.featureEdges, polygons, std::uint8_t{ 0 }, features);
     appendOr(all.guideDirections, part.guideDirections, polygons, Vector3(Vector3::Zero()), guides);
     appendOr(all.guideWeights, part.guideWeights, polygons, 1.0, weights);
+    appendOr(all.curvatures, part.curvatures, polygons, kNoCurvature, curvatures);
     all.curves.insert(all.curves.end(), part.curves.begin(), part.curves.end());
     all.drawn.append(part.drawn);
     kept.polygonOffsets = std::move(part.polygonOffsets);

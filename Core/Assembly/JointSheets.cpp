@@ -313,6 +313,7 @@ private:
       copy(joint_.guideDirections, input.guideDirections);
       copy(joint_.guideWeights, input.guideWeights);
       copy(joint_.guideOrders, input.guideOrders);
+      copy(joint_.curvatures, input.curvatures);
     }
     input.patchesYield = joint_.patchesYield;
     input.featuresYield = joint_.featuresYield;

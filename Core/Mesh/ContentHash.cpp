@@ -89,8 +89,8 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, patchesYield,
     featuresYield, detectedFeatures, guideDirections, guideWeights, guideOrders, targetValences,
-    sizing, sizingOrders, drawn, curves, regularElsewhere, held, regularOnFeatures, seams, straight,
-    faceOrder, precision] = input;
+    sizing, sizingOrders, curvatures, drawn, curves, regularElsewhere, held, regularOnFeatures,
+    seams, straight, faceOrder, precision] = input;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
@@ -116,6 +116,7 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
   hash = featuresYield ? mix(hash, 2) : hash;
   hash = mix(hash, hashVector(detectedFeatures, threads));
   hash = mix(hash, hashVector(sizing, threads));
+  hash = curvatures.empty() ? hash : mix(hash, hashVector(curvatures, threads));
   return mix(mix(hash, geometry.faceOrder), geometry.precision);
 }
 

@@ -3,6 +3,7 @@
 /// The surface: as the user hands it in, and as runs see it, repaired and in order, with what was asked for.
 #pragma once
 
+#include "Mesh/KnownCurvature.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NamesBefore.h"
 #include "Mesh/Requests.h"
@@ -50,7 +51,9 @@ struct SurfaceInput
   std::vector<int> targetValences; ///< empty or #points; 0: free, else see ValenceRequest
   /// Empty or #points: the edge length that quads should have there as a multiple of the target edge length, > 0.
   std::vector<float> sizing;
-  std::vector<int> sizingOrders;    ///< empty (0 everywhere) or #points; see SizeRequest::order
+  std::vector<int> sizingOrders; ///< empty (0 everywhere) or #points; see SizeRequest::order
+  /// Empty or #P: in place of what triangles show, see AdaptiveSizes; polygons of more corners have none.
+  std::vector<KnownCurvature> curvatures;
   DrawnRequests drawn;              ///< in units of the points
   std::vector<CurveRequest> curves; ///< connections and cycles, in units of the points
   /// Vertices inside, on no feature, that no target valence names are to be regular.
@@ -153,6 +156,8 @@ struct PreparedSurface : SurfaceRequests
   SharedArray<FlippedFace> flipped; ///< as cornerWeights, or empty where no face was flipped
   /// What was there before the last flips; null where no face was flipped.
   std::shared_ptr<const FlatSources> beforeFlips;
+
+  SharedArray<KnownCurvature> curvatures; ///< by sourcePolygon, or empty; see SurfaceInput
 
   /// Set by who wants to know what becomes of the elements; orderSurface keeps it.
   std::optional<NamesBefore> namesBefore;

@@ -354,6 +354,7 @@ PreparedSurface withoutElements(const PreparedSurface& whole)
   surface.strokeFaces.clear();
   surface.repair = whole.repair;
   surface.facets = whole.facets;
+  surface.curvatures = whole.curvatures;
   surface.boundingBoxDiagonal = whole.boundingBoxDiagonal;
   surface.beforeFlips = whole.beforeFlips;
   surface.seconds = whole.seconds;

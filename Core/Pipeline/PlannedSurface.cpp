@@ -38,7 +38,7 @@ std::size_t bytesOf(const PreparedSurface& surface, const PreparedSurface* shari
   return bytesOf(surface.mesh, sharing != nullptr ? &sharing->mesh : nullptr) +
     own(&PreparedSurface::sourcePolygon) + own(&PreparedSurface::sourcePoints) +
     own(&PreparedSurface::refinedEntry) + own(&PreparedSurface::cornerWeights) +
-    own(&PreparedSurface::flipped) +
+    own(&PreparedSurface::flipped) + own(&PreparedSurface::curvatures) +
     (surface.beforeFlips && (sharing == nullptr || surface.beforeFlips != sharing->beforeFlips)
         ? surface.beforeFlips->bytes()
         : 0);

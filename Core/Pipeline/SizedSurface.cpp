@@ -65,8 +65,8 @@ ResultKey sizedKey(ResultKey prepared, ResultKey requests, const PreparedSurface
   if (options.sizes.any())
   {
     const AdaptiveSizes& sizes = options.sizes;
-    key.add(sizes.chordError.value_or(0), sizes.gapQuads, sizes.smallest, sizes.largest,
-      options.quads.has_value());
+    key.add(sizes.chordError.value_or(0), sizes.turn.value_or(0), sizes.gapQuads, sizes.smallest,
+      sizes.largest, options.quads.has_value());
   }
   return key.key();
 }

@@ -69,8 +69,8 @@ std::string adaptSizes(PreparedSurface& surface, const RemeshOptions& options, S
   refineSurface(surface, sized.edgeLength, {}, options.threads);
   const double reach = options.quads ? sizes.largest / sizes.smallest : sizes.largest;
   const std::vector<float> asked = mesh.sizing;
-  const std::vector<float> lengths =
-    adaptiveLengths(mesh, sizes, sized.edgeLength, reach, options.threads);
+  const std::vector<float> lengths = adaptiveLengths(mesh, sizes, sized.edgeLength, reach,
+    options.threads, cornerCurvatures(surface, options.threads));
   const double target = options.quads ? static_cast<double>(*options.quads) : 0;
   double wanted = target, made = 0;
   DistributedSizes shared;

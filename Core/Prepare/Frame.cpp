@@ -140,6 +140,14 @@ void requestsToFrame(FramedInput& framed)
   {
     direction = frame.mirrored(direction);
   }
+  for (KnownCurvature& known : framed.input.curvatures)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      known.atCorner[k] = static_cast<float>(frame.unit * known.atCorner[k]);
+      known.alongSide[k] = static_cast<float>(frame.unit * known.alongSide[k]);
+    }
+  }
   framed.input.drawn.visit([&](Vector3& p) { p = frame.fromUser(p); },
     [&](double& length) { length = frame.lengthOf(length); });
   for (CurveRequest& curve : framed.input.curves)

@@ -42,6 +42,24 @@ void requireFaces(const PreparedSurface& surface)
   }
 }
 
+/// With the points at the corners of each triangle.
+std::vector<KnownCurvature> knownCurvatures(const SurfaceInput& input)
+{
+  std::vector<KnownCurvature> known = input.curvatures;
+  refuseIf(!known.empty() && known.size() != input.polygonOffsets.size() - 1,
+    "the array of known curvatures has ", known.size(), " values for ",
+    input.polygonOffsets.size() - 1, " polygons");
+  for (std::size_t i = 0; i < known.size(); ++i)
+  {
+    const Index begin = input.polygonOffsets[i];
+    if (input.polygonOffsets[i + 1] - begin == 3)
+    {
+      std::copy_n(input.polygonPoints.begin() + begin, 3, known[i].points.begin());
+    }
+  }
+  return known;
+}
+
 /// Of a designed body: what is marked so far was asked for, and yields.
 void letFeaturesYield(PreparedSurface& surface)
 {
@@ -122,6 +140,7 @@ PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& optio
   poll();
   triangulate(input, surface, options.threads);
   requireFaces(surface);
+  surface.curvatures = knownCurvatures(input);
   const std::size_t points = input.points.size();
   surface.mesh.position.swap(input.points);
   input.polygonOffsets.clear();

@@ -39,6 +39,7 @@ void settingsFields(Fields& fields, Options& options)
   fields.orNull("feature_angle", featureAngle);
   fields.mayName("feature_criterion", featureCriterion, kFeatureCriteria);
   fields.orNull("chord_error", shapeSizes.chordError);
+  fields.orNull("angle_a_quad", shapeSizes.turn);
   fields.may("gap_quads", shapeSizes.gapQuads);
   fields.may("smallest_size", shapeSizes.smallest);
   fields.may("largest_size", shapeSizes.largest);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sizes/AdaptiveSizing.h"
 
+#include "Base/Angles.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
@@ -47,17 +48,45 @@ std::vector<float> toVertices(
   return result;
 }
 
-std::vector<float> patchLengthsByCurvature(const Mesh& mesh, const SurfacePatches& patches,
-  double chordError, double edgeLength, int threads)
+/// #V: the largest curvature that the vertex has in one of its faces, or along a feature or boundary there.
+std::vector<double> vertexCurvatures(const Mesh& mesh, const SurfacePatches& patches,
+  const CornerCurvatures& known, double edgeLength, int threads)
 {
-  std::vector<float> lengths;
-  for (const PatchCurvature& curvature :
-    patchCurvatures(mesh, patches, kCurvatureRadius * edgeLength, threads))
+  const std::vector<PatchCurvature> estimated =
+    patchCurvatures(mesh, patches, kCurvatureRadius * edgeLength, threads);
+  std::vector<double> result(mesh.vertexCount(), 0);
+  const auto raise = [&](Index v, double value) { result[v] = std::max(result[v], value); };
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
-    const double k = std::max(std::abs(curvature.largest), curvature.curve);
-    lengths.push_back(k > 0 ? static_cast<float>(std::sqrt(8 * chordError / k)) : kNoLength);
+    pollNowAndThen(h);
+    const PatchCurvature& patch = estimated[patches.patchOf[Mesh::face(h)]];
+    if (!known.isKnownAt(h))
+    {
+      raise(mesh.origin[h], std::max(std::abs(patch.largest), patch.curve));
+      continue;
+    }
+    raise(mesh.origin[h], known.atCorner[h]);
+    if (mesh.isConstrained(h))
+    {
+      const double curve = std::isnan(known.along[h]) ? patch.curve : double{ known.along[h] };
+      raise(mesh.origin[h], curve);
+      raise(mesh.target(h), curve);
+    }
   }
-  return lengths;
+  return result;
+}
+
+/// The smaller one of what chord error and turn allow.
+float lengthByCurvature(double curvature, const AdaptiveSizes& sizes)
+{
+  if (!(curvature > 0))
+  {
+    return kNoLength;
+  }
+  const double byChord =
+    sizes.chordError ? std::sqrt(8 * *sizes.chordError / curvature) : double{ kNoLength };
+  const double byTurn = sizes.turn ? *sizes.turn / curvature : double{ kNoLength };
+  return static_cast<float>(std::min(byChord, byTurn));
 }
 
 std::vector<float> patchLengthsByGap(
@@ -213,6 +242,8 @@ void checkAdaptiveSizes(const AdaptiveSizes& sizes)
 {
   refuseIf(sizes.chordError && !(*sizes.chordError > 0 && std::isfinite(*sizes.chordError)),
     "the chord error must be a positive number");
+  refuseIf(sizes.turn && !(*sizes.turn > 0 && *sizes.turn <= kPi),
+    "the angle a quad must be above 0 and at most 180 degrees");
   refuseIf(!(sizes.gapQuads >= 0 && std::isfinite(sizes.gapQuads)),
     "the number of quads across a gap must be 0 or a positive number");
   refuseIf(!(sizes.smallest > 0 && sizes.smallest <= 1),
@@ -221,26 +252,27 @@ void checkAdaptiveSizes(const AdaptiveSizes& sizes)
     "the largest size must be a number from 1 on");
 }
 
-std::vector<float> adaptiveLengths(
-  const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength, double reach, int threads)
+std::vector<float> adaptiveLengths(const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength,
+  double reach, int threads, const CornerCurvatures& known)
 {
   const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
-  std::vector<float> lengths(patches.patches.size(), kNoLength);
-  const auto lower = [&](const std::vector<float>& other)
-  {
-    std::transform(lengths.begin(), lengths.end(), other.begin(), lengths.begin(),
-      [](float a, float b) { return std::min(a, b); });
-  };
-  if (sizes.chordError)
-  {
-    lower(patchLengthsByCurvature(mesh, patches, *sizes.chordError, edgeLength, threads));
-  }
+  std::vector<float> lengths(mesh.vertexCount(), kNoLength);
   if (sizes.gapQuads > 0)
   {
-    lower(patchLengthsByGap(
-      mesh, patches, sizes.gapQuads, sizes.gapQuads * reach * edgeLength, threads));
+    lengths = toVertices(mesh, patches,
+      patchLengthsByGap(
+        mesh, patches, sizes.gapQuads, sizes.gapQuads * reach * edgeLength, threads));
   }
-  return toVertices(mesh, patches, lengths);
+  if (sizes.byCurvature())
+  {
+    const std::vector<double> curvatures =
+      vertexCurvatures(mesh, patches, known, edgeLength, threads);
+    for (std::size_t v = 0; v < lengths.size(); ++v)
+    {
+      lengths[v] = std::min(lengths[v], lengthByCurvature(curvatures[v], sizes));
+    }
+  }
+  return lengths;
 }
 
 void setAdaptiveSizes(Mesh& mesh, const std::vector<float>& asked,

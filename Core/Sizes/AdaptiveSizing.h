@@ -6,6 +6,7 @@
 
 #include "Mesh/Mesh.h"
 #include "Sizes/AdaptiveSizes.h"
+#include "Sizes/CornerCurvatures.h"
 #include "Sizes/Curvature.h"
 
 #include <vector>
@@ -14,15 +15,16 @@ namespace quadrille
 {
 
 /// #V, units of the mesh: the smaller of two lengths, as far as they are asked for.
-/// - sqrt(8 e / k) with the chord error e and the largest absolute normal curvature k over about `edgeLength`, of the
-///   surface or of a feature or boundary there; infinite in a plane.
+/// - sqrt(8 e / k) with the chord error e and a / k with the turn a, where k is the largest absolute normal curvature:
+///   the known one, and along features and boundaries that of the curve; where none is known that of the triangles over
+///   about `edgeLength`. Infinite in a plane.
 /// - The distance to the opposite sheet, inside or outside, over the quads across a gap; infinite where none is near
 ///   enough to matter. A sheet is opposite where a ray along the normal meets it and the two normals are at most 45
 ///   degrees from opposite.
 /// edgeLength: about that of the quads, the scale over which the surface is looked at; the largest one that may be
 /// asked for is `reach` times it.
-std::vector<float> adaptiveLengths(
-  const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength, double reach, int threads);
+std::vector<float> adaptiveLengths(const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength,
+  double reach, int threads, const CornerCurvatures& known = {});
 
 /// Gives the mesh sizes: the smaller of `asked` (multiples of edgeLength, #V or empty) and of the lengths, kept within
 /// the range of `sizes`.

@@ -175,6 +175,7 @@ bool anyValue(vtkDataArray* array, const Condition& holds)
 std::vector<ReadArray> surfaceArrays(const std::string& patchArray)
 {
   std::vector<ReadArray> read{ { arrays::kFeatureEdges, ArrayPlace::Cells, 1 },
+    { arrays::kKnownCurvature, ArrayPlace::Cells, 6 },
     { arrays::kGuidingDirection, ArrayPlace::Cells, 3 },
     { arrays::kGuidingWeight, ArrayPlace::Cells, 1 },
     { arrays::kTargetValence, ArrayPlace::Points, 1 }, { arrays::kSizing, ArrayPlace::Points, 1 },

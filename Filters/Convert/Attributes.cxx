@@ -36,9 +36,9 @@ constexpr double kSamePart = 1e-9;
 /// Arrays that describe the source itself and would be wrong on anything made from it.
 bool isOwn(const std::string& name)
 {
-  static const std::array<const char*, 24> own = { arrays::kFeatureEdges, arrays::kDetectedFeatures,
-    arrays::kIgm, arrays::kMatching, arrays::kDeterminant, arrays::kTwin, arrays::kFineFace,
-    arrays::kFineVertex, arrays::kTurns, arrays::kIndex, arrays::kIntegerVertex,
+  static const std::array<const char*, 25> own = { arrays::kFeatureEdges, arrays::kDetectedFeatures,
+    arrays::kKnownCurvature, arrays::kIgm, arrays::kMatching, arrays::kDeterminant, arrays::kTwin,
+    arrays::kFineFace, arrays::kFineVertex, arrays::kTurns, arrays::kIndex, arrays::kIntegerVertex,
     arrays::kSurfacePointId, arrays::kTextureCoordinates, arrays::kSourcePointIds,
     arrays::kSourceWeights, arrays::kSourceBarycentric, arrays::kValence, arrays::kOnBoundary,
     arrays::kLayoutPatch, arrays::kPartial, arrays::kQuadNormals, arrays::kFramePosition,

@@ -209,6 +209,31 @@ void readFeatureEdges(vtkPolyData* data, ConvertedSurface& surface, int threads)
     ", but bits of at most 8 edges are read: 0 to 255");
 }
 
+/// Polygons of more corners and strips have none.
+void readKnownCurvature(vtkPolyData* data, ConvertedSurface& surface)
+{
+  vtkDataArray* array = data->GetCellData()->GetArray(arrays::kKnownCurvature);
+  if (!array)
+  {
+    return;
+  }
+  refuseIf(array->GetNumberOfComponents() != 6, "cell array ", arrays::kKnownCurvature,
+    " must have six numbers a triangle, it has ", array->GetNumberOfComponents());
+  SurfaceInput& input = surface.input;
+  const vtkIdType firstStrip = surface.firstCell + data->GetNumberOfPolys();
+  input.curvatures.assign(polygonCount(input), kNoCurvature);
+  for (std::size_t i = 0; i < input.curvatures.size(); ++i)
+  {
+    const vtkIdType cell = surface.cell(static_cast<Index>(i));
+    for (std::size_t k = 0; k < 3 && cell < firstStrip; ++k)
+    {
+      const auto at = static_cast<int>(k);
+      input.curvatures[i].atCorner[k] = static_cast<float>(array->GetComponent(cell, at));
+      input.curvatures[i].alongSide[k] = static_cast<float>(array->GetComponent(cell, 3 + at));
+    }
+  }
+}
+
 template <class Value>
 void copyPatchIds(
   const Value* values, const ConvertedSurface& surface, int threads, std::vector<std::int64_t>& ids)
@@ -325,6 +350,7 @@ ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray
   readFeatureEdges(data, surface, threads);
   surface.input.featuresYield = data->GetFieldData()->HasArray(arrays::kCadShape);
   readDetectedFeatures(data, surface);
+  readKnownCurvature(data, surface);
   readPatchIds(data, patchArray, surface, threads);
   readGuides(data, surface);
   surface.input.targetValences = readPointValences(data);

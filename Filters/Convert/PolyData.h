@@ -33,6 +33,8 @@ namespace quadrille
 namespace arrays
 {
 constexpr const char* kFeatureEdges = "FeatureEdges";
+/// Six numbers a triangle: KnownCurvature::atCorner and alongSide; 1 over the unit of the points.
+constexpr const char* kKnownCurvature = "KnownCurvature";
 /// Field data; the features of such a surface are known.
 constexpr const char* kCadShape = "CadShape";
 /// Of joined pieces (unsigned char a cell): as FeatureEdges, of what was found on the pieces themselves.

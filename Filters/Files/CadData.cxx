@@ -13,6 +13,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
@@ -25,7 +26,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace quadrille
@@ -46,32 +46,6 @@ vtkSmartPointer<vtkPoints> pointsOf(const std::vector<Vector3>& from)
   return points;
 }
 
-std::string nameOfFace(const CadPart& part, std::size_t face)
-{
-  return part.faceNames[face].empty() ? kUnnamedFace + std::to_string(face + 1)
-                                      : part.faceNames[face];
-}
-
-bool isFollowed(CadEdgeKind kind, CadFollow follow)
-{
-  return follow != CadFollow::None &&
-    (kind == CadEdgeKind::Sharp || (kind == CadEdgeKind::Tangent && follow == CadFollow::All));
-}
-
-/// Both ends of the segments of followed edges, the lower one first.
-std::set<std::pair<Index, Index>> followedSegments(const CadSurface& surface, CadFollow follow)
-{
-  std::set<std::pair<Index, Index>> segments;
-  for (const CadEdge& edge : surface.edges)
-  {
-    for (std::size_t i = 0; isFollowed(edge.kind, follow) && i + 1 < edge.points.size(); ++i)
-    {
-      segments.insert(std::minmax(edge.points[i], edge.points[i + 1]));
-    }
-  }
-  return segments;
-}
-
 void addCellArrays(const CadPart& part, CadFollow follow, vtkPolyData* data)
 {
   const CadSurface& surface = part.surface;
@@ -80,21 +54,17 @@ void addCellArrays(const CadPart& part, CadFollow follow, vtkPolyData* data)
   const auto names = newArray<vtkStringArray>(arrays::kPatchNames, 1, count);
   const auto features = newArray<vtkUnsignedCharArray>(arrays::kFeatureEdges, 1, count);
   const auto colours = newArray<vtkUnsignedCharArray>("CadColour", 3, count);
-  const std::set<std::pair<Index, Index>> segments = followedSegments(surface, follow);
+  const auto curvatures = newArray<vtkFloatArray>(arrays::kKnownCurvature, 6, count);
+  const CadCells cells = cadCells(surface, follow);
   bool hasColours = false;
   for (std::size_t t = 0; t < count; ++t)
   {
     const auto cell = static_cast<vtkIdType>(t);
     const Index face = surface.faceOf[t];
-    unsigned bits = 0;
-    for (unsigned i = 0; i < 3; ++i)
-    {
-      const std::array<Index, 3>& c = surface.triangles[t];
-      bits |= segments.count(std::minmax(c[i], c[(i + 1) % 3])) > 0 ? 1U << i : 0U;
-    }
     faces->SetValue(cell, static_cast<int>(face));
     names->SetValue(cell, nameOfFace(part, face));
-    features->SetValue(cell, static_cast<unsigned char>(bits));
+    features->SetValue(cell, cells.features[t]);
+    curvatures->SetTypedTuple(cell, cells.curvatures[t].data());
     constexpr std::array<double, 3> kGrey{ 0.8, 0.8, 0.8 };
     const std::array<double, 3> colour = part.faceColours[face].value_or(kGrey);
     hasColours = hasColours || part.faceColours[face].has_value();
@@ -104,13 +74,14 @@ void addCellArrays(const CadPart& part, CadFollow follow, vtkPolyData* data)
       colours->SetTypedComponent(cell, k, static_cast<unsigned char>(value));
     }
   }
-  vtkCellData* cells = data->GetCellData();
-  cells->AddArray(faces);
-  cells->AddArray(names);
-  cells->AddArray(features);
+  vtkCellData* ofCells = data->GetCellData();
+  ofCells->AddArray(faces);
+  ofCells->AddArray(names);
+  ofCells->AddArray(features);
+  ofCells->AddArray(curvatures);
   if (hasColours)
   {
-    cells->AddArray(colours);
+    ofCells->AddArray(colours);
   }
 }
 

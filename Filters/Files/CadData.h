@@ -3,7 +3,7 @@
 /// Parts of CAD files as VTK data.
 #pragma once
 
-#include "Cad/CadFile.h"
+#include "Cad/CellValues.h"
 
 #include <vtkSmartPointer.h>
 
@@ -22,18 +22,11 @@ constexpr const char* kCadTessellation = "CadTessellation";
 constexpr const char* kCadFaceId = "CadFaceId";
 }
 
-/// Which edges of a shape become features.
-enum class CadFollow
-{
-  Sharp = 0,
-  All = 1, ///< tangent ones, too
-  None = 2
-};
-
 /// Triangles. Cells: CadFaceId, PatchNames (the names of the faces), FeatureEdges (bits of the followed edges; free
-/// ones are boundary without that), CadColour (where the file has colours). Field data: CadShape (bytes of the exact
-/// shape), CadTessellation (the options it was tessellated with, and whether tangent edges are followed),
-/// CadFaceNames, CadSurfaceKinds (by id), CadUnitOfFile, and names and places of edges and vertices, see CadNames.h.
+/// ones are boundary without that), KnownCurvature (of faces and edges), CadColour (where the file has colours). Field
+/// data: CadShape (bytes of the exact shape), CadTessellation (the options it was tessellated with, and whether tangent
+/// edges are followed), CadFaceNames, CadSurfaceKinds (by id), CadUnitOfFile, and names and places of edges and
+/// vertices, see CadNames.h.
 vtkSmartPointer<vtkPolyData> cadPolyData(const CadPart& part, const std::string& unit,
   const TessellationOptions& options, CadFollow follow);
 

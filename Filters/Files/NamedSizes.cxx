@@ -95,8 +95,7 @@ std::size_t editDistance(const std::string& from, const std::string& to)
 }
 
 //------------------------------------------------------------------------------
-/// The triangles, split where they are long beside what has a size. Each child has the cell of its parent, and the
-/// feature bits of the edges that are parts of its parent's.
+/// The triangles, split where they are long beside what has a size. Each child has the cell of its parent.
 class SplitTriangles
 {
 public:
@@ -104,8 +103,12 @@ public:
   {
     std::array<Index, 3> corners{};
     vtkIdType cell = 0;
-    unsigned bits = 0;
+    /// Of the cell's sides the one that each side is part of; kInside.
+    std::array<std::uint8_t, 3> sides{ 0, 1, 2 };
+    /// Of the corners in the cell.
+    std::array<Vector3, 3> weights{ Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ() };
   };
+  static constexpr std::uint8_t kInside = 3;
   /// A point in the middle of two others.
   struct Middle
   {
@@ -121,7 +124,6 @@ public:
       surface->GetPoint(i, p.data());
       points_.push_back(p);
     }
-    vtkDataArray* const bits = surface->GetCellData()->GetArray(arrays::kFeatureEdges);
     vtkNew<vtkIdList> ids;
     for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
     {
@@ -136,7 +138,6 @@ public:
         triangle.corners[k] = static_cast<Index>(ids->GetId(static_cast<vtkIdType>(k)));
       }
       triangle.cell = c;
-      triangle.bits = bits ? static_cast<unsigned>(bits->GetComponent(c, 0)) & 7U : 0;
     }
   }
 
@@ -218,10 +219,12 @@ private:
       return;
     }
     const std::size_t i = longest, j = (i + 1) % 3, k = (i + 2) % 3;
-    const auto bit = [&](std::size_t side) { return (triangle.bits >> side) & 1U; };
-    const std::array<Index, 3>& c = triangle.corners;
-    divide({ { c[i], middle, c[k] }, triangle.cell, bit(i) | bit(k) << 2U }, middleOf, to);
-    divide({ { middle, c[j], c[k] }, triangle.cell, bit(i) | bit(j) << 1U }, middleOf, to);
+    const auto& [c, cell, sides, w] = triangle;
+    const Vector3 m = (w[i] + w[j]) / 2;
+    divide({ { c[i], middle, c[k] }, cell, { sides[i], kInside, sides[k] }, { w[i], m, w[k] } },
+      middleOf, to);
+    divide({ { middle, c[j], c[k] }, cell, { sides[i], sides[j], kInside }, { m, w[j], w[k] } },
+      middleOf, to);
   }
 
   double shortest_;
@@ -272,6 +275,34 @@ void extend(vtkAbstractArray* array, const std::vector<SplitTriangles::Middle>& 
   }
 }
 
+/// What the array says of the triangle's cell, for the triangle.
+std::uint8_t featureBits(vtkDataArray* ofCells, const SplitTriangles::Triangle& triangle)
+{
+  const auto bits = static_cast<unsigned>(ofCells->GetComponent(triangle.cell, 0));
+  unsigned own = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const bool isSide = triangle.sides[k] != SplitTriangles::kInside;
+    own |= isSide && (bits >> triangle.sides[k] & 1U) != 0 ? 1U << k : 0U;
+  }
+  return static_cast<std::uint8_t>(own);
+}
+
+std::array<float, 6> knownCurvature(vtkDataArray* ofCells, const SplitTriangles::Triangle& triangle)
+{
+  std::array<double, 6> known{};
+  ofCells->GetTuple(triangle.cell, known.data());
+  const Vector3 atCorner(known[0], known[1], known[2]);
+  std::array<float, 6> own{};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const std::size_t side = triangle.sides[k];
+    own[k] = static_cast<float>(triangle.weights[k].dot(atCorner));
+    own[3 + k] = side == SplitTriangles::kInside ? 0 : static_cast<float>(known[3 + side]);
+  }
+  return own;
+}
+
 vtkSmartPointer<vtkPolyData> polyDataOf(
   const SplitTriangles& split, const std::vector<float>& sizes, vtkPolyData* surface)
 {
@@ -296,7 +327,11 @@ vtkSmartPointer<vtkPolyData> polyDataOf(
   cellData->CopyAllOn();
   cellData->CopyGlobalIdsOff(); // several triangles have one
   cellData->CopyAllocate(surface->GetCellData(), static_cast<vtkIdType>(count));
-  const auto bits = newArray<vtkUnsignedCharArray>(arrays::kFeatureEdges, 1, count);
+  vtkDataArray* const bitsBefore = surface->GetCellData()->GetArray(arrays::kFeatureEdges);
+  vtkDataArray* const knownBefore = surface->GetCellData()->GetArray(arrays::kKnownCurvature);
+  const auto bits =
+    newArray<vtkUnsignedCharArray>(arrays::kFeatureEdges, 1, bitsBefore ? count : 0);
+  const auto known = newArray<vtkFloatArray>(arrays::kKnownCurvature, 6, knownBefore ? count : 0);
   for (std::size_t i = 0; i < count; ++i)
   {
     const SplitTriangles::Triangle& triangle = split.triangles()[i];
@@ -304,12 +339,23 @@ vtkSmartPointer<vtkPolyData> polyDataOf(
       triangle.corners[2] };
     cells->InsertNextCell(3, ids.data());
     cellData->CopyData(surface->GetCellData(), triangle.cell, static_cast<vtkIdType>(i));
-    bits->SetValue(static_cast<vtkIdType>(i), static_cast<unsigned char>(triangle.bits));
+    if (bitsBefore)
+    {
+      bits->SetValue(static_cast<vtkIdType>(i), featureBits(bitsBefore, triangle));
+    }
+    if (knownBefore)
+    {
+      known->SetTypedTuple(static_cast<vtkIdType>(i), knownCurvature(knownBefore, triangle).data());
+    }
   }
   result->SetPolys(cells);
-  if (surface->GetCellData()->HasArray(arrays::kFeatureEdges))
+  if (bitsBefore)
   {
     cellData->AddArray(bits);
+  }
+  if (knownBefore)
+  {
+    cellData->AddArray(known);
   }
   const auto sizing = newArray<vtkFloatArray>(arrays::kSizing, 1, sizes.size());
   std::copy(sizes.begin(), sizes.end(), sizing->GetPointer(0));

@@ -111,8 +111,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
            cell_data="centre", preview=False, symmetry=None, rotation=None,
-           plane_curve="isoline", chord_error=None, gap_quads=0.0, smallest_size=0.2, largest_size=1.0, guide=None,
-           guide_anisotropy=0.3, stroke_radius=0.0, wrap=None,
+           plane_curve="isoline", chord_error=None, angle_a_quad=None, gap_quads=0.0, smallest_size=0.2,
+           largest_size=1.0, guide=None, guide_anisotropy=0.3, stroke_radius=0.0, wrap=None,
            progress=None, everything=False, spread=False):
     """Remeshes a surface with quads only and returns a vtkPolyData; without VTK, of arrays, a Mesh.
 
@@ -170,9 +170,10 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         lie near the surface, and no arrays of it are carried.
     chord_error: by how much edges of the quads may lie off the surface, in units of the mesh: they are shorter where it
         is curved; with quads=N as many quads are distributed so. None: sizes do not depend on the curvature.
+    angle_a_quad: by how many degrees the surface may turn along an edge of the quads; else as chord_error.
     gap_quads: so many edges at least go into the thickness of the solid and into gaps outside; 0: sizes do not depend
-        on that. Of both and `sizing` the smallest counts.
-    smallest_size, largest_size: the range of what these two lead to, over the target edge length.
+        on that. Of all three and `sizing` the smallest counts.
+    smallest_size, largest_size: the range of what these three lead to, over the target edge length.
     guide: what quads follow where guiding_direction and strokes are not given: "curvature", or the name of an array of
         three numbers on cells or points of a vtkPolyData.
     guide_anisotropy: with guide="curvature", where |k1 - k2| / (|k1| + |k2|) is above this, over about an edge length.
@@ -210,9 +211,9 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         time_limit=time_limit, close_handles=close_handles, small_details=small_details,
         small_components=small_components, method=method, final_quality=final_quality, integers=integers,
         anisotropy_limit=anisotropy_limit, distortion_metric=distortion_metric, cell_data=cell_data, preview=preview,
-        symmetry=symmetry, rotation=rotation, plane_curve=plane_curve, chord_error=chord_error, gap_quads=gap_quads,
-        smallest_size=smallest_size, largest_size=largest_size, guide=guide, guide_anisotropy=guide_anisotropy,
-        stroke_radius=stroke_radius, everything=everything)
+        symmetry=symmetry, rotation=rotation, plane_curve=plane_curve, chord_error=chord_error,
+        angle_a_quad=angle_a_quad, gap_quads=gap_quads, smallest_size=smallest_size, largest_size=largest_size,
+        guide=guide, guide_anisotropy=guide_anisotropy, stroke_radius=stroke_radius, everything=everything)
     surface = with_requests(
         as_surface(mesh), guiding_direction=guiding_direction, guiding_weight=guiding_weight,
         target_valence=target_valence, sizing=sizing, feature_edges=feature_edges, patch_ids=patch_ids,

@@ -94,6 +94,7 @@ def remesh(
     rotation: int | tuple[int, Sequence[float], Sequence[float]] | None = ...,
     plane_curve: str = ...,
     chord_error: float | None = ...,
+    angle_a_quad: float | None = ...,
     gap_quads: float = ...,
     smallest_size: float = ...,
     largest_size: float = ...,

@@ -151,8 +151,8 @@ _SETTINGS = ("quads", "edge_length", "relative_edge_length", "feature_criterion"
 
 def _settings_text(options):
     settings = {name: options[name] for name in _SETTINGS if name in options}
-    angle = options["feature_angle"]
-    settings["feature_angle"] = None if angle is None else angle * math.pi / 180
+    for name in ("feature_angle", "angle_a_quad"):
+        settings[name] = None if options[name] is None else options[name] * math.pi / 180
     settings["memory_limit"] = 1e6 * options["memory_limit"] if options["memory_limit"] > 0 else None
     settings["curvature_guides"] = options["guide_anisotropy"] if options["guide"] == "curvature" else None
     return json.dumps(settings)
@@ -201,6 +201,10 @@ def _surface_dict(surface, patch_array, guide):
         result["target_valence"] = _column("TargetValence", points["TargetValence"], numpy.int32)
     if "Sizing" in points:
         result["sizing"] = _column("Sizing", points["Sizing"], numpy.float64)
+    if "KnownCurvature" in cells:
+        result["known_curvature"] = _column("KnownCurvature", cells["KnownCurvature"], numpy.float64, 6)
+    if "CadShape" in surface.field_data:
+        result["designed"] = True
     if guide and guide != "curvature":
         if guide not in cells:
             raise InvalidInput(f"there is no cell array '{guide}' to guide by; of points, and of whole surfaces, "
@@ -219,6 +223,7 @@ def _quads_mesh(surface, made):
     if "point_source" in made:
         polygons, points, weights = made["point_source"]
         from_points, from_cells = carried(surface, points, weights, made["quad_source"])
+        from_cells.pop("KnownCurvature", None)  # of the triangles
         own = {"SourceCellId": polygons, "SourcePointIds": points, "SourceBarycentric": weights}
         point_data = {**from_points, **own, **point_data}
         cell_data = {**from_cells, "SourceCellId": made["quad_source"], **cell_data}
@@ -239,6 +244,8 @@ def remesh(surface, options, lines, *, wrap, requests, spread, progress):
         raise missing("spread, which needs MPI and VTK's controller")
     if options["cell_data"] != "centre":
         raise missing("cell_data='area'")
+    if "CadShape" in surface.field_data:  # whose features are known
+        options = {**options, "feature_angle": None}
     made = _native.remesh(_surface_dict(surface, options["patch_array"], options["guide"]), _settings_text(options),
                           _how(options), list(lines or []), progress)
     quads = _as_given(surface, _quads_mesh(surface, made))
@@ -324,25 +331,55 @@ def _triangles_of_strips(offsets, ids):
     return numpy.array(triangles, numpy.int64).reshape(-1, 3)
 
 
+_CAD = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
+
+
 def has_cad():
-    return False
+    return hasattr(_native, "read_cad")
 
 
-def read_cad(path, **_):
-    raise InvalidInput(f"{path}: CAD files are not read here: {_ELSEWHERE}. Or have your CAD program write STL or PLY")
+def _part_mesh(part, unit):
+    triangles, face = part["triangles"], part["face"]
+    names = numpy.array(part["names"], dtype=object)
+    cell_data = {"CadFaceId": face, "PatchNames": names[face], "FeatureEdges": part["feature_edges"],
+                 "KnownCurvature": part["known_curvature"], "CadColour": part["colours"][face]}
+    fields = {"CadShape": part["shape"], "CadTessellation": part["tessellation"], "CadFaceNames": part["names"],
+              "CadSurfaceKinds": part["kinds"], "CadUnitOfFile": [unit]}
+    return Mesh.from_cells(part["points"], 3 * numpy.arange(len(triangles) + 1), triangles.reshape(-1),
+                           cell_data=cell_data, field_data=fields)
+
+
+def read_cad(path, *, chord_error, sharp_angle, follow, join_parts):
+    if not has_cad():
+        raise InvalidInput(f"{path}: CAD files are not read here: {_ELSEWHERE}. Or have your CAD program write STL or "
+                           "PLY")
+    parts, unit, _ = _native.read_cad(path, chord_error, sharp_angle * math.pi / 180, follow, join_parts)
+    if len(parts) == 1:
+        return _part_mesh(parts[0], unit)
+    return {part["name"]: _part_mesh(part, unit) for part in parts}
 
 
 def sizes_by_name(*_):
     raise InvalidInput(f"there are no sizes by name here: {_ELSEWHERE}")
 
 
-def on_cad_geometry(_):
-    raise InvalidInput(f"there is no exact geometry here: {_ELSEWHERE}")
+def on_cad_geometry(mesh):
+    if not has_cad():
+        raise InvalidInput(f"there is no exact geometry here: {_ELSEWHERE}")
+    fields = mesh.field_data if isinstance(mesh, Mesh) else {}
+    if "CadShape" not in fields or mesh.faces.ndim != 2 or mesh.faces.shape[1] != 4:
+        raise InvalidInput("take quads that were made on a Mesh of read_cad()")
+    points, place, ids, normals, curvatures = _native.place_on_cad(
+        fields["CadShape"], fields["CadTessellation"], mesh.points, mesh.faces)
+    arrays = {"CadPlace": place, "CadId": ids, "CadNormal": normals, "CadCurvature": curvatures}
+    counts = {"NodesOnGeometry": [int((place > 0).sum())], "NodesOffGeometry": [int((place == 0).sum())]}
+    return Mesh.from_cells(points, mesh.offsets, mesh.corners, point_data={**mesh.point_data, **arrays},
+                           cell_data=mesh.cell_data, field_data={**fields, **counts})
 
 
 def read(path):
-    if os.path.splitext(path)[1].lower() in (".step", ".stp", ".iges", ".igs", ".brep", ".brp"):
-        read_cad(path)
+    if os.path.splitext(path)[1].lower() in _CAD:
+        return read_cad(path, chord_error=0.0005, sharp_angle=5.0, follow=0, join_parts=True)
     extension = os.path.splitext(path)[1].lower()
     if extension not in _READ:
         raise InvalidInput(f"files of the kind {extension or 'without extension'} are not read here; known are "

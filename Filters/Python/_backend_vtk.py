@@ -145,6 +145,8 @@ def _set_all(run, options):
         run.SetFeatureAngle(options["feature_angle"])
     if options["chord_error"] is not None:
         run.SetChordError(options["chord_error"])
+    if options["angle_a_quad"] is not None:
+        run.SetAngleAQuad(options["angle_a_quad"])
     guide = options["guide"]
     run.SetCurvatureGuides(guide == "curvature")
     run.SetGuideArrayName(guide if guide and guide != "curvature" else "")

@@ -59,8 +59,12 @@ def _numbers(given):
     chord = given["chord_error"]
     if chord is not None:
         chord = real("chord_error", chord, above=0, hint=" (None leaves sizes as they are)")
+    turn = given["angle_a_quad"]
+    if turn is not None:
+        turn = real("angle_a_quad", turn, above=0, most=180, hint=" (None leaves sizes as they are)")
     return {
         "feature_angle": angle, "coarse_vertices": coarse, "anisotropy_limit": limit, "chord_error": chord,
+        "angle_a_quad": turn,
         "threads": whole("threads", given["threads"], least=0),
         "maximum_number_of_quads": whole("maximum_number_of_quads", given["maximum_number_of_quads"], least=1),
         "smoothing_steps": whole("smoothing_steps", given["smoothing_steps"], least=0),

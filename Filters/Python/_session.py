@@ -24,7 +24,8 @@ _PLAIN = ("feature_criterion", "method", "integers", "small_details", "small_com
           "anisotropy_limit", "distortion_metric", "maximum_number_of_quads", "smoothing_steps", "warm_start",
           "threads", "memory_limit")
 
-
+#: Settings that are degrees here and radians in the class; None turns them off.
+_ANGLES = ("feature_angle", "angle_a_quad")
 #: Settings of sizes and guides that follow from the shape: whether None turns them off, and their range.
 _SHAPE = {"chord_error": (True, {"above": 0}), "gap_quads": (False, {"least": 0}),
           "smallest_size": (False, {"above": 0, "most": 1}), "largest_size": (False, {"least": 1}),
@@ -40,10 +41,10 @@ def _settings(quads=None, edge_length=None, relative_edge_length=None, **setting
     result = {name: whole(name, value, least=1) if name == "quads" else real(name, value, above=0)
               for name, value in sizes.items()}
     for name, value in settings.items():
-        if name == "feature_angle":
+        if name in _ANGLES:
             result[name] = None
             if value is not None:
-                degrees = real(name, value, above=0, most=180, hint=" (None turns the detection off)")
+                degrees = real(name, value, above=0, most=180, hint=" (None turns it off)")
                 result[name] = degrees * math.pi / 180
         elif name == "memory_limit":
             megabytes = real(name, value, least=0)
@@ -54,7 +55,7 @@ def _settings(quads=None, edge_length=None, relative_edge_length=None, **setting
                             real(name, value, hint=" (None turns it off)" if may_be_off else "", **limits))
         elif name not in _PLAIN:
             raise InvalidInput(f"there is no setting {name!r}; the settings are quads, edge_length, "
-                               f"relative_edge_length, feature_angle, {', '.join(_SHAPE)}, {', '.join(_PLAIN)}")
+                               f"relative_edge_length, {', '.join((*_ANGLES, *_SHAPE, *_PLAIN))}")
         elif isinstance(value, (bool, str)):
             result[name] = value
         else:
@@ -315,10 +316,11 @@ class Session:
         return listed
 
     def settings(self):
-        """Of the present state, by their names; feature_angle in degrees."""
+        """Of the present state, by their names; feature_angle and angle_a_quad in degrees."""
         result = json.loads(self._check(self._session.GetSettings()))
-        if result["feature_angle"] is not None:
-            result["feature_angle"] *= 180 / math.pi
+        for name in _ANGLES:
+            if result[name] is not None:
+                result[name] *= 180 / math.pi
         return result
 
     # States.

@@ -42,6 +42,10 @@ for need in paraview-quadrille:paraview "quadrille:$vtk_library" "libquadrille[0
   dpkg-deb -f "${package[0]}" Depends | grep -q "${need##*:} (>=" || {
     echo "make-packages: ${package[0]} does not depend on ${need##*:}" >&2; exit 1; }
 done
+for package in "$packages"/*.deb; do
+  ! dpkg-deb -c "$package" | grep -q Cad/QuadrilleCad.so || dpkg-deb -f "$package" Depends | grep -q libocct || {
+    echo "make-packages: $package reads CAD files, and does not depend on Open CASCADE" >&2; exit 1; }
+done
 version=$(sed -n 's/^project(Quadrille VERSION \([0-9.]*\) .*/\1/p' CMakeLists.txt)
 for package in "$packages"/*.deb; do
   [[ $(dpkg-deb -f "$package" Version) == "$version"-* ]] || {

@@ -7,7 +7,8 @@
     pack_wheel.py --retag WHEEL WHEELS   a wheel of the tag linux gets that of its C library
 
 The tag is manylinux_2_N, N from the newest version of a symbol of the C library (GLIBC_2.N) that the module asks for;
-the C++ library is inside of the module, which is looked at, too.
+the C++ library is inside of the module, which is looked at, too. With the module for CAD files, which asks for the
+libraries of Open CASCADE of this machine, the tag is linux.
 """
 import argparse
 import base64
@@ -46,6 +47,8 @@ def least_c_library(module):
 
 def tag_of(module):
     python = f"cp{sys.version_info[0]}{sys.version_info[1]}"
+    if (module.parent / "Cad").exists():
+        return f"{python}-{python}-linux_{platform.machine()}"
     return f"{python}-{python}-manylinux_2_{least_c_library(module)}_{platform.machine()}"
 
 

@@ -22,7 +22,7 @@ make_system() # NAME
 {
   make_root "$1"
   cp "$packages"/*.deb "$root/root/"
-  cp "$here/Data/part.ply" "$root/root/"
+  cp "$here/Data/part.ply" "$here/Data/bracket.step" "$root/root/"
   quietly apt-get update
 }
 # All that is there but caches, logs and the folders of this script; what dpkg knows of packages is in it. Some packages
@@ -56,6 +56,9 @@ if missing:
     sys.exit(f"not listed: {missing}")
 quads = simple.QuadRemesh(Input=simple.Sphere(ThetaResolution=64, PhiResolution=64), NumberOfQuads=500)
 quadrille.check(quads)
+part = simple.OpenDataFile("bracket.step")
+nodes = simple.QuadNodesOnCADGeometry(Input=simple.QuadRemesh(Input=part, NumberOfQuads=800))
+print(nodes.GetDataInformation().GetNumberOfCells(), "quads on the exact shape of a STEP file")
 print("ParaView lists the filters;", quads.GetDataInformation().GetNumberOfCells(), "quads on a sphere")
 PY
 inside "xvfb-run -a pvpython lists.py"
@@ -73,6 +76,7 @@ use_commands()
 {
   inside "quadrille --version"
   inside "quadrille part.ply quads.vtp --quads 2000 --quiet && ls -s quads.vtp"
+  inside "quadrille bracket.step bracket.inp --quads 800 --quiet && grep -i elset=bore bracket.inp"
   inside 'python3 -c "import quadrille; print(quadrille.remesh(quadrille.read(\"part.ply\"), quads=500))" | grep Cells'
   inside "quadrille-evaluate --help | head -1"
 }

@@ -202,6 +202,22 @@ TEST(Read, WhatIsNoCadFileIsRefused)
   EXPECT_FALSE(errorOf(header).empty());
 }
 
+/// Open CASCADE reads what is left of it.
+TEST(Read, TheMissingEndOfAnIgesFileIsTold)
+{
+  const std::string whole = testFile("end.igs"), cut = testFile("no-end.igs");
+  writeIges(boxWithHole(), whole);
+  const std::string bytes = bytesOf(whole);
+  writeBytes(cut, bytes.substr(0, bytes.size() - 200));
+  const auto isTold = [](const CadFile& file)
+  {
+    return std::any_of(file.notices.begin(), file.notices.end(),
+      [](const std::string& notice) { return contains(notice, "the end of the file is missing"); });
+  };
+  EXPECT_FALSE(isTold(readCadFile(whole)));
+  EXPECT_TRUE(isTold(readCadFile(cut)));
+}
+
 /// Each is read, or refused in words that name the file; neither ends the process.
 TEST(Read, DamagedFilesAreReadOrRefused)
 {

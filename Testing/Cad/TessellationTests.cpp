@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
+#include "Cad/Curvatures.h"
 #include "Cad/ShapeData.h"
 #include "Cad/Tessellation.h"
 #include "Shapes.h"
@@ -132,6 +133,74 @@ TEST(Tessellation, OptionsOutOfTheirRangeAreRefused)
   options.angle = 2;
   EXPECT_THROW(tessellate(shape, options), InvalidInput);
   EXPECT_THROW(tessellate(CadShape()), InvalidInput);
+}
+
+/// Of each face the least and the largest curvature at corners of its triangles.
+std::vector<std::array<float, 2>> curvatureRanges(const CadShape& shape, CadSurface& surface)
+{
+  addCurvatures(shape, surface);
+  std::vector<std::array<float, 2>> ranges(shape.faceCount(), { 1e30F, 0 });
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+  {
+    for (const float curvature : surface.curvatures[t])
+    {
+      auto& [least, most] = ranges[surface.faceOf[t]];
+      least = std::min(least, curvature);
+      most = std::max(most, curvature);
+    }
+  }
+  return ranges;
+}
+
+void expectCurvature(const TopoDS_Shape& of, CadSurfaceKind kind, double least, double most)
+{
+  const CadShape shape = shapeOf(of);
+  CadSurface surface = tessellate(shape);
+  const auto ranges = curvatureRanges(shape, surface);
+  std::size_t faces = 0;
+  for (std::size_t f = 0; f < ranges.size(); ++f)
+  {
+    if (surface.surfaceKinds[f] == kind)
+    {
+      ++faces;
+      EXPECT_NEAR(ranges[f][0], least, 1e-6 * most);
+      EXPECT_NEAR(ranges[f][1], most, 1e-6 * most);
+    }
+  }
+  EXPECT_GT(faces, 0U);
+}
+
+TEST(Tessellation, CurvaturesAreThoseOfRadii)
+{
+  expectCurvature(boxWithHole(), CadSurfaceKind::Cylinder, 2, 2);
+  expectCurvature(boxWithHole(), CadSurfaceKind::Plane, 0, 0);
+  expectCurvature(roundedCylinder(), CadSurfaceKind::Torus, 4, 4);
+  expectCurvature(BRepPrimAPI_MakeTorus(2, 0.5).Shape(), CadSurfaceKind::Torus, 2, 2);
+  expectCurvature(
+    BRepPrimAPI_MakeSphere(4).Shape(), CadSurfaceKind::Sphere, 0.25, 0.25); // at poles, too
+  // From radius 1 to 0.5 over a height of 1: over the distance from the axis along the normal.
+  const double slope = std::hypot(1, 0.5);
+  expectCurvature(
+    BRepPrimAPI_MakeCone(1, 0.5, 1).Shape(), CadSurfaceKind::Cone, 1 / slope, 2 / slope);
+}
+
+TEST(Tessellation, CurvaturesOfEdgesAreThoseOfTheirCurves)
+{
+  const CadShape shape = shapeOf(boxWithHole());
+  CadSurface surface = tessellate(shape);
+  addCurvatures(shape, surface);
+  std::size_t round = 0;
+  for (const CadEdge& edge : surface.edges)
+  {
+    ASSERT_EQ(edge.curvatures.size() + 1, edge.points.size());
+    const bool isRim = edge.points.size() > 2 && edge.kind == CadEdgeKind::Sharp;
+    round += isRim ? 1 : 0;
+    for (const float curvature : edge.curvatures)
+    {
+      EXPECT_NEAR(curvature, isRim ? 2 : 0, 1e-6);
+    }
+  }
+  EXPECT_EQ(round, 2U);
 }
 
 } // namespace quadrille

@@ -313,6 +313,28 @@ class Sizes(unittest.TestCase):
         self.assertLess(abs(numpy.median(lengths[on_bore]) / 0.125 - 1), 0.2)
         self.assertLess(abs(numpy.median(lengths[radius > 1.2]) / 0.25 - 1), 0.15)
 
+    def test_exact_curvature(self):
+        """Edges round a bore of radius 0.5 are as long as chord error or angle say, also where sizes by name have split
+        the triangles; on plane faces those at its rims."""
+        part = quadrille.read_cad(FOLDER / "named.step", chord_error=0.02)
+        known = vtk_to_numpy(part.GetCellData().GetArray("KnownCurvature"))
+        self.assertEqual(known.shape[1], 6)
+        numpy.testing.assert_allclose(numpy.unique(known), [0, 2], atol=1e-5)
+        named = quadrille.sizes_by_name(part, {"support": 0.7})
+        self.assertGreater(named.GetNumberOfCells(), part.GetNumberOfCells())
+        for surface in (part, named):
+            for options in ({"chord_error": 0.004}, {"angle_a_quad": 14.5}):
+                quads = quadrille.on_cad_geometry(quadrille.remesh(surface, edge_length=0.4, **options))
+                points, faces = quadrille.to_arrays(quads)
+                ends = numpy.unique(numpy.sort(numpy.concatenate(
+                    [faces[:, (i, (i + 1) % 4)] for i in range(4)]), axis=1), axis=0)
+                radius = numpy.hypot(points[:, 0] - 2, points[:, 1] - 1.5)
+                a, b = points[ends[:, 0]], points[ends[:, 1]]
+                round_bore = (abs(radius[ends] - 0.5) < 1e-6).all(axis=1) & (abs(a[:, 2] - b[:, 2]) < 1e-6)
+                self.assertGreater(round_bore.sum(), 20)
+                lengths = numpy.linalg.norm(a - b, axis=1)[round_bore]
+                self.assertLess(abs(numpy.median(lengths) / 0.1265 - 1), 0.12, options)
+
     def test_edges_and_vertices(self):
         for name, near in (("front edge", lambda m: (m[:, 1] < 0.01) & (m[:, 2] < 0.01)),
                            ("origin", lambda m: numpy.linalg.norm(m, axis=1) < 0.1)):

@@ -574,7 +574,10 @@ class Requests(unittest.TestCase):
         self.assertLess(plain.GetNumberOfCells(), 0.6 * fine.GetNumberOfCells())
         thick = quadrille.remesh(sphere.GetOutput(), edge_length=0.5, gap_quads=6, smallest_size=0.5)
         self.assertGreater(thick.GetNumberOfCells(), 1.5 * plain.GetNumberOfCells())  # 2 / 6
+        turned = quadrille.remesh(sphere.GetOutput(), edge_length=0.5, angle_a_quad=math.degrees(0.08 ** 0.5))
+        self.assertAlmostEqual(turned.GetNumberOfCells() / (4 * math.pi / 0.08), 1, delta=0.2)
         for words, options in ((["chord_error", "above 0"], {"chord_error": 0}),
+                               (["angle_a_quad", "180"], {"angle_a_quad": 181}),
                                (["gap_quads"], {"gap_quads": -1}), (["smallest_size"], {"smallest_size": 2}),
                                (["largest_size"], {"largest_size": 0.5})):
             self.assertRefused(words, **options)

@@ -205,6 +205,11 @@ class SessionTest(unittest.TestCase):
         shaped = made.quads
         self.assertFalse(same(shaped, plain))
         self.assertTrue(same(session(**shape).quads, shaped))
+        made.set_settings(angle_a_quad=5)
+        self.assertAlmostEqual(made.settings()["angle_a_quad"], 5)
+        self.assertFalse(same(made.quads, shaped))
+        made.set_settings(angle_a_quad=None)
+        self.assertTrue(same(made.quads, shaped))
         made.set_settings(chord_error=None, gap_quads=0, smallest_size=0.2, largest_size=1, curvature_guides=None)
         self.assertTrue(same(made.quads, plain))
 

@@ -279,5 +279,52 @@ class Nonsense(unittest.TestCase):
             quadrille.write((points, faces), "a.vtu")
 
 
+@unittest.skipUnless(quadrille.has_cad(), "this build has no Open CASCADE")
+class Cad(unittest.TestCase):
+    BRACKET = os.path.join(DATA, "bracket.step")
+
+    @unittest.skipUnless(COMMAND, "there is no command to compare with")
+    def test_nodes_are_those_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            theirs, ours = (os.path.join(folder, name) for name in ("theirs.obj", "ours.obj"))
+            for options, arguments in (({}, []), ({"angle_a_quad": 10.0}, ["--angle-a-quad", "10"])):
+                subprocess.run([COMMAND, self.BRACKET, theirs, "--quads", "800", "--quiet", *arguments], check=True)
+                quads = quadrille.remesh(quadrille.read(self.BRACKET), quads=800, **options)
+                quadrille.write(quadrille.on_cad_geometry(quads), ours)
+                with open(theirs, "rb") as first, open(ours, "rb") as second:
+                    self.assertEqual(first.read(), second.read())
+
+    def test_what_is_known_of_a_part(self):
+        part = quadrille.read_cad(self.BRACKET)
+        self.assertEqual(set(part.cell_data["PatchNames"]), set(part.field_data["CadFaceNames"]))
+        self.assertIn("bore", part.field_data["CadFaceNames"])
+        self.assertEqual(sorted(set(part.field_data["CadSurfaceKinds"])), ["cylinder", "plane"])
+        quads = quadrille.on_cad_geometry(quadrille.remesh(part, quads=800))
+        self.assertEqual(quadrille.info(quads)["NodesOffGeometry"], 0)
+        self.assertNotIn("KnownCurvature", quads.cell_data)
+        bore = quads.faces[quads.cell_data["PatchNames"] == "bore"]
+        curvatures = abs(quads.point_data["CadCurvature"][quads.point_data["CadPlace"] == 1])
+        numpy.testing.assert_allclose(curvatures.max(), 1 / 0.5, rtol=1e-6)
+        self.assertEqual(set(quads.point_data["CadPlace"]), {1, 2, 3})
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "bracket.inp")
+            quadrille.write(quads, path)
+            with open(path) as file:
+                self.assertIn("ELSET=BORE", file.read().upper().replace(" ", ""))
+        self.assertGreater(len(bore), 20)
+
+    def test_damaged_files_and_meshes_without_a_shape(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "cut.step")
+            with open(self.BRACKET, "rb") as whole, open(path, "wb") as cut:
+                cut.write(whole.read()[:3000])
+            for call in (lambda: quadrille.read(path), lambda: quadrille.read(os.path.join(folder, "none.step"))):
+                with self.assertRaises(quadrille.InvalidInput):
+                    call()
+        for mesh in (quadrille.remesh(quadrille.read(PART), quads=300), quadrille.read(self.BRACKET)):
+            with self.assertRaises(quadrille.InvalidInput):
+                quadrille.on_cad_geometry(mesh)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -50,7 +50,7 @@ second = QuadNodesOnCADGeometry(Input=elements)
 second.UpdatePipeline()
 check(places(second)[0] == 0 and places(second)[1] > places(exact)[1], "nodes of second order stay")
 
-sized = QuadSizesByName(Input=part, Sizes="bore = 0.5\nEDGE_1=0.7")
+sized = QuadSizesByName(Input=part, Sizes=["bore", "0.5", "EDGE_1", "0.7"])
 finer = QuadRemesh(Input=sized, NumberOfQuads=600)
 finer.UpdatePipeline()
 check(sized.PointData["Sizing"].GetRange() == (0.5, 1), "sizes by name are not those asked for")

@@ -4,6 +4,7 @@
 #include "Base/Error.h"
 #include "Mesh/Sizing.h"
 #include "Prepare/Prepare.h"
+#include "Prepare/Refine.h"
 #include "Sizes/AdaptiveSizing.h"
 #include "Sizes/CurvatureGuides.h"
 #include "Sizes/OppositeSheets.h"
@@ -103,6 +104,95 @@ TEST(AdaptiveSizing, ChordErrorOfASphereIsTheOneAskedFor)
   {
     EXPECT_NEAR(length, wanted, 0.1 * wanted);
   }
+}
+
+/// An open cylinder of twelve sides, with what an exact one of radius 1 has there.
+PreparedSurface knownCylinder()
+{
+  SurfaceInput input = toInput(openCylinder(12, 1));
+  input.curvatures.assign(
+    input.polygonOffsets.size() - 1, { kNoCurvature.points, { 1, 1, 1 }, { 1, 1, 1 } });
+  return prepareSurface(input, {});
+}
+
+TEST(AdaptiveSizing, KnownCurvatureTakesThePlaceOfThatOfTriangles)
+{
+  PreparedSurface surface = knownCylinder();
+  refineSurface(surface, 0.1, {}, 2);
+  ASSERT_GT(surface.mesh.faceCount(), 500U);
+  AdaptiveSizes sizes;
+  sizes.chordError = 0.001;
+  const CornerCurvatures known = cornerCurvatures(surface, 2);
+  for (const float length : adaptiveLengths(surface.mesh, sizes, 0.1, 1, 2, known))
+  {
+    EXPECT_NEAR(length, std::sqrt(8 * 0.001), 1e-6);
+  }
+  // The triangles are flat over a few edges, and bend by 30 degrees between them.
+  const std::vector<float> shown = adaptiveLengths(surface.mesh, sizes, 0.1, 1, 2);
+  EXPECT_EQ(*std::max_element(shown.begin(), shown.end()), std::numeric_limits<float>::infinity());
+  sizes = {};
+  sizes.turn = 0.2;
+  for (const float length : adaptiveLengths(surface.mesh, sizes, 0.1, 1, 2, known))
+  {
+    EXPECT_NEAR(length, 0.2, 1e-6);
+  }
+}
+
+TEST(AdaptiveSizing, KnownCurvatureIsLinearAndThatOfSidesStaysThere)
+{
+  // A square of two triangles: curvature x on the surface, and of the side at y = 0 that of a circle of radius 1 / 3.
+  SurfaceInput input = toInput(gridPlane(1, 1));
+  for (Index f = 0; f < 2; ++f)
+  {
+    KnownCurvature known;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto corner = [&](std::size_t i)
+      { return input.points[input.polygonPoints[3 * f + i]]; };
+      known.atCorner[k] = static_cast<float>(corner(k).x());
+      known.alongSide[k] = corner(k).y() == 0 && corner((k + 1) % 3).y() == 0 ? 3 : 0;
+    }
+    input.curvatures.push_back(known);
+  }
+  for (const FaceOrder order : { FaceOrder::AsGiven, FaceOrder::FromLowest, FaceOrder::Reversed })
+  {
+    input.faceOrder = order;
+    PreparedSurface surface = prepareSurface(input, {});
+    refineSurface(surface, 0.1, {}, 2);
+    const Mesh& mesh = surface.mesh;
+    const CornerCurvatures known = cornerCurvatures(surface, 2);
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      const Vector3& a = mesh.position[mesh.origin[h]];
+      EXPECT_NEAR(known.atCorner[h], a.x(), 1e-6);
+      if (mesh.isBoundary(h))
+      {
+        EXPECT_EQ(known.along[h], a.y() == 0 && mesh.position[mesh.target(h)].y() == 0 ? 3 : 0);
+      }
+    }
+    AdaptiveSizes sizes;
+    sizes.turn = 1;
+    const std::vector<float> lengths = adaptiveLengths(mesh, sizes, 0.1, 1, 2, known);
+    for (Index v = 0; v < mesh.vertexCount(); ++v)
+    {
+      const Vector3& p = mesh.position[v];
+      EXPECT_NEAR(1 / lengths[v], p.y() == 0 ? 3 : p.x(), 1e-5);
+    }
+  }
+}
+
+TEST(AdaptiveSizing, WhereNoCurvatureIsKnownTrianglesShowIt)
+{
+  SurfaceInput input = toInput(sphere(4));
+  AdaptiveSizes sizes;
+  sizes.chordError = 0.001;
+  const PreparedSurface plain = prepareSurface(input, {});
+  input.curvatures.assign(input.polygonOffsets.size() - 1, kNoCurvature);
+  const PreparedSurface unknown = prepareSurface(input, {});
+  EXPECT_EQ(adaptiveLengths(unknown.mesh, sizes, kEdge, 1, 2, cornerCurvatures(unknown, 2)),
+    adaptiveLengths(plain.mesh, sizes, kEdge, 1, 2));
+  input.curvatures.pop_back();
+  EXPECT_THROW(prepareSurface(input, {}), InvalidInput);
 }
 
 TEST(AdaptiveSizing, GapsAreThicknessAndDistance)
@@ -236,6 +326,9 @@ TEST(AdaptiveSizing, RefusesWhatIsOutOfRange)
   AdaptiveSizes sizes;
   checkAdaptiveSizes(sizes);
   sizes.chordError = 0;
+  refused(sizes);
+  sizes = {};
+  sizes.turn = 4;
   refused(sizes);
   sizes = {};
   sizes.gapQuads = -1;
