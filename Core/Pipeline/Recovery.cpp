@@ -25,13 +25,15 @@ constexpr std::array<Strategy, 3> kForMaps{ {
   { Try::RoomForCurves, 1, roomForCurves },
   { Try::KeptDefects, 2, keptDefects },
 } };
-constexpr std::array<Strategy, 2> kForRounds{ {
-  { Try::MoreQuads, 1, moreQuads },
+constexpr std::array<Strategy, 1> kForRounds{ {
+
   { Try::FewerFeatures, kMostFeatureDrops, fewerFeatures },
 } };
 
 /// Where no round has quads and none of the others is left, or may be tried any more.
-constexpr std::array<Strategy, 1> kLastResort{ {
+constexpr std::array<Strategy, 2> kLastResort{ {
+  { Try::MoreQuads, 3, moreQuads },
+
   { Try::CoarserFeatures, 2, coarserFeatures },
 } };
 

@@ -28,6 +28,9 @@ constexpr double kFirstFeatureDrop = 0.5;
 /// Where nothing else has led to quads, features that quads so many times as large cannot resolve go first.
 constexpr double kCoarserFeatures = 4;
 
+constexpr const char* kDoNotFit =
+  "quads of the wanted size do not fit round a handle, a hole or a thin part near ";
+
 /// These do not show in the plan any more.
 void forget(std::initializer_list<Try> steps, Plan& plan)
 {
@@ -92,6 +95,21 @@ std::vector<Index> unresolved(const RunContext& run, Mesh mesh)
   return lostFeatures(mesh, before);
 }
 
+/// As many as go three times round the shortest loop, where details are to be resolved; 0: edges would be too short, or
+/// no loop asks for it.
+double quadsForLoops(const RunContext& run)
+{
+  const std::vector<HandleLoop>& loops = run.shortLoops.loops;
+  if (loops.empty() || run.options.smallDetails != SmallDetails::Resolve)
+  {
+    return 0;
+  }
+  const HandleLoop& shortest = *std::min_element(loops.begin(), loops.end(),
+    [](const HandleLoop& a, const HandleLoop& b) { return a.length < b.length; });
+  const double finer = kQuadsOfLoop * run.edgeLength / shortest.length;
+  return finer * kLeastShrink > 1 ? 0 : static_cast<double>(run.targetQuads) * finer * finer;
+}
+
 } // namespace
 
 bool isTooLarge(const Attempt& attempt)
@@ -142,25 +160,27 @@ std::vector<Index> featuresNear(
 std::optional<Plan> moreQuads(const AttemptFailure& failure)
 {
   const RunContext& run = failure.run;
-  const std::vector<HandleLoop>& loops = run.shortLoops.loops;
-  Plan plan = newRound(failure.attempt.plan);
+  const Attempt& attempt = failure.attempt;
   const auto wanted = static_cast<double>(run.targetQuads);
-  if (!failure.withoutQuads || failure.history.hasResult() || loops.empty() ||
-    run.options.smallDetails != SmallDetails::Resolve || !mayResolve(run.options) ||
-    plan.quads > wanted)
+  const auto most = wanted * std::pow(2.0, static_cast<double>(failure.bound));
+  Plan plan = fromTheBeginning(run, attempt.plan);
+  if (isTooLarge(attempt) || !mayResolve(run.options))
   {
     return std::nullopt;
   }
-  const HandleLoop& shortest = *std::min_element(loops.begin(), loops.end(),
-    [](const HandleLoop& a, const HandleLoop& b) { return a.length < b.length; });
-  const double finer = kQuadsOfLoop * run.edgeLength / shortest.length;
-  if (finer * kLeastShrink > 1)
+  const double forLoops = attempt.plan.quads > wanted ? 0 : quadsForLoops(run);
+  const bool isTouching = attempt.map->status.ok() && attempt.quads &&
+    !attempt.quads->failedFaces.empty() && attempt.plan.quads < most;
+  if (forLoops == 0 && !isTouching)
   {
     return std::nullopt;
   }
-  plan.quads = wanted * finer * finer;
-  plan.notices.push_back("quads of the wanted size do not fit round a handle or a hole near " +
-    placeText(run.surface->mesh.position[shortest.vertices.front()]) + ": made for " +
+  plan.quads = forLoops > 0 ? forLoops : 2 * attempt.plan.quads;
+  eraseIf(plan.notices, [](const std::string& text) { return text.find(kDoNotFit) == 0; });
+  const Vector3 place = isTouching
+    ? run.surface->mesh.middleOfFace(attempt.quads->failedFaces.front())
+    : run.surface->mesh.position[run.shortLoops.loops.front().vertices.front()];
+  plan.notices.push_back(kDoNotFit + placeText(place) + ": made for " +
     std::to_string(std::llround(plan.quads)) +
     " quads instead; ask for that many, or close it, for a result without this");
   return plan;
@@ -184,11 +204,6 @@ std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
   if (isTooLarge(failure.attempt) || features.empty())
   {
     return std::nullopt;
-  }
-  if (failure.withoutQuads)
-  {
-    plan.quads = static_cast<double>(failure.run.targetQuads); // more have not helped
-    forget({ Try::MoreQuads }, plan);
   }
   ++plan.featureDrops;
   append(plan.dropped, drops);

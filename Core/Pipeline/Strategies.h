@@ -48,15 +48,15 @@ std::optional<Plan> keptDefects(const AttemptFailure& failure);
 
 // For another round.
 
-/// Where small details are to be resolved, and loops round handles or holes are too short for three quads: as many
-/// quads everywhere as go three times round the shortest one, unless their edges were shorter than kLeastShrink. Bound:
-/// times.
-std::optional<Plan> moreQuads(const AttemptFailure& failure);
-
 /// Features that may be given up (see mayBeGivenUp) are, near the places of a failure, twice as far as the last time
 /// where a place fails again, and after a failure so far that there are some; or those that only the dihedral angle
 /// asked for, near folds at which quads are inverted. Bound: times in all, for quads that are inverted.
 std::optional<Plan> fewerFeatures(const AttemptFailure& failure);
+
+/// Where nothing else has led to quads, and those of a valid map touch themselves, as round a thin part: twice as many
+/// everywhere; where small details are to be resolved, at once as many as go three times round the shortest loop,
+/// unless their edges were shorter than kLeastShrink. Bound: doublings.
+std::optional<Plan> moreQuads(const AttemptFailure& failure);
 
 /// Where nothing else has led to quads: of the features that may be given up those go that quads four times as large
 /// could not follow (see removeUnresolvedFeatures), and the next time all. Bound: times in all.

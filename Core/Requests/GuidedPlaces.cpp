@@ -94,7 +94,7 @@ private:
   /// Of a place of the course, whose side counts from now on.
   SurfacePlaces::Place placeBelow(const Vector3& p)
   {
-    const SurfacePlaces::Place at = places_.nearestPlace(p);
+    SurfacePlaces::Place at = places_.nearestPlace(p);
     side_ = normalAt(at);
     return at;
   }

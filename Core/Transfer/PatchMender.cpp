@@ -57,8 +57,8 @@ class PatchMender
 public:
   PatchMender(const Mesh& mesh, std::vector<FixedVec2>& uv, const std::vector<int>& expectedTurns,
     int threads)
-    : mesh_(mesh), uv_(uv), threads_(threads), defects_(mesh, uv, expectedTurns), patch_(mesh, uv, expectedTurns),
-      tried_(mesh.faceCount(), 0)
+    : mesh_(mesh), uv_(uv), threads_(threads), defects_(mesh, uv, expectedTurns),
+      patch_(mesh, uv, expectedTurns), tried_(mesh.faceCount(), 0)
   {
   }
 
@@ -73,8 +73,7 @@ private:
   bool embedPatch(bool isWider);
   bool embedWhole();
   bool embedTurned();
-  bool embedFrom(
-    const UntangleProblem& problem, const Eigen::VectorXd& start, Energy energy);
+  bool embedFrom(const UntangleProblem& problem, const Eigen::VectorXd& start, Energy energy);
   void embedShapes();
 
   const Mesh& mesh_;
@@ -219,8 +218,7 @@ void PatchMender::embedShapes()
 {
   countTry(Try::ShapesAgain);
   hasLed(Try::ShapesAgain,
-    embedFrom(problems().make(), Eigen::VectorXd::Zero(patch_.unknowns()),
-      Energy::Polish));
+    embedFrom(problems().make(), Eigen::VectorXd::Zero(patch_.unknowns()), Energy::Polish));
 }
 
 bool PatchMender::embedFrom(

@@ -113,8 +113,8 @@ std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centre
 TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
-    std::vector<std::string>({ "more freedom", "room for curves", "kept defects", "more quads",
-      "fewer features", "coarser features" }));
+    std::vector<std::string>({ "more freedom", "room for curves", "kept defects", "fewer features",
+      "more quads", "coarser features" }));
 }
 
 // The plan that a run begins with.
@@ -481,30 +481,51 @@ TEST(Recovery, ManyFailedVerticesAreNotKeptForTheNextRound)
 
 // More quads everywhere.
 
-TEST(Recovery, MoreQuadsGoThreeTimesRoundTheShortestLoop)
+TEST(Recovery, MoreQuadsGoThreeTimesRoundTheShortestLoopThatIsToBeResolved)
 {
   TestRun run(test::gridPlane(12, 12), 1);
   run.options.smallDetails = SmallDetails::Resolve;
-  EXPECT_FALSE(run.nextAfter(run.first(), carriedMap(1), failedQuads())); // there is no loop
+  const auto next = [&](const Plan& plan)
+  { return run.nextAfter(plan, carriedMap(1), failedQuads(), true); };
+  EXPECT_FALSE(next(run.first())); // there is no loop
   addShortLoop(run, { 6, 6, 0 }, 2.5);
   addShortLoop(run, { 2, 2, 0 }, 1.5);
-  run.options.smallDetails = SmallDetails::Automatic;
-  const Plan automatic = run.first();
-  EXPECT_FALSE(run.nextAfter(automatic, carriedMap(1), failedQuads())); // the number counts
-  run.options.smallDetails = SmallDetails::Resolve;
   Plan first = run.first();
   first.quads = kTarget;
   run.context.targetQuads = kTarget;
-  EXPECT_FALSE(run.nextAfter(first, carriedMap(1), quadsWith(2))); // inverted ones are no reason
-  const std::optional<Plan> next = run.nextAfter(first, carriedMap(1), failedQuads());
-  expectStep(next, "more quads");
-  EXPECT_DOUBLE_EQ(next->quads, 4.0 * kTarget);
-  EXPECT_EQ(next->sizes, first.sizes);
-  EXPECT_NE(next->notices.back().find("near (2, 2, 0): made for 4000 quads"), std::string::npos)
-    << next->notices.back();
-  EXPECT_FALSE(run.nextAfter(*next, carriedMap(1), failedQuads())); // once
-  addShortLoop(run, { 3, 3, 0 }, 0.2);                              // edges of a fifteenth
-  EXPECT_FALSE(run.nextAfter(first, carriedMap(1), failedQuads()));
+  EXPECT_FALSE(run.nextAfter(first, carriedMap(1), quadsWith(2), true));   // no reason
+  EXPECT_FALSE(run.nextAfter(first, carriedMap(1), failedQuads(), false)); // others come before
+  const std::optional<Plan> more = next(first);
+  expectStep(more, "more quads");
+  EXPECT_DOUBLE_EQ(more->quads, 4.0 * kTarget);
+  EXPECT_EQ(more->sizes, first.sizes);
+  EXPECT_NE(more->notices.back().find(": made for 4000 quads"), std::string::npos);
+  EXPECT_FALSE(next(*more)); // once
+  run.options.smallDetails = SmallDetails::Automatic;
+  EXPECT_FALSE(next(first)); // the number counts
+  run.options.smallDetails = SmallDetails::Resolve;
+  addShortLoop(run, { 3, 3, 0 }, 0.2); // edges of a fifteenth
+  EXPECT_FALSE(next(first));
+}
+
+TEST(Recovery, MoreQuadsDoubleThemWhereTheyTouchThemselves)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  const auto touching = failedQuads();
+  touching->failedFaces = { 0 };
+  Plan plan = run.first();
+  for (int times = 1; times <= 3; ++times)
+  {
+    EXPECT_FALSE(run.nextAfter(plan, failedMap(), nullptr, true)); // only of a valid map
+    const std::optional<Plan> next = run.nextAfter(plan, carriedMap(0), touching, true);
+    expectStep(next, "more quads");
+    plan = *next;
+    EXPECT_EQ(plan.quads, std::pow(2.0, times) * kTarget);
+    ASSERT_EQ(plan.notices.size(), 1U);
+    EXPECT_NE(plan.notices[0].find("made for " + std::to_string(std::llround(plan.quads))),
+      std::string::npos);
+  }
+  EXPECT_FALSE(run.nextAfter(plan, carriedMap(0), touching, true));
 }
 
 // Features that nobody asked for.
