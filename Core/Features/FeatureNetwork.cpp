@@ -8,16 +8,9 @@
 #include "Features/ArcNetwork.h"
 #include "Features/FeatureFilter.h"
 #include "Mesh/Sizing.h"
-#include "Mesh/Topology.h"
 
 #include <algorithm>
-#include <array>
-#include <functional>
-#include <iterator>
 #include <limits>
-#include <map>
-#include <optional>
-#include <queue>
 #include <utility>
 #include <vector>
 

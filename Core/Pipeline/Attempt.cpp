@@ -11,12 +11,10 @@
 #include "Pipeline/Notices.h"
 #include "Pipeline/RequestKeys.h"
 #include "Pipeline/SmallHandles.h"
-#include "Quads/QuadTopology.h"
 #include "Requests/Guides.h"
 #include "Requests/HeldVertices.h"
 #include "Requests/StraightRequests.h"
 #include "Transfer/ExpectedTurns.h"
-#include "Transfer/PatchMender.h"
 #include "Transfer/SurfaceStretch.h"
 
 #include <algorithm>
