@@ -71,7 +71,6 @@ void ArcNetwork::trace(Index start, Index h)
     arc.length += sizedLength(mesh_, h) / edgeLength_;
     arc.removable =
       arc.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
-
     v = mesh_.otherEnd(h, v);
     if (at_.degree(v) != 2)
     {
