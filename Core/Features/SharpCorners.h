@@ -24,10 +24,11 @@ struct SharpCornerReport
 };
 
 /// Where two features, or a feature and a boundary, leave a point at less than 10 degrees on one side, a quad in that
-/// corner has a scaled Jacobian of the sine of this angle at most. So the blunter of the two begins later, where it is 0.12
-/// s (times the size there) away from the other one, or after 4 s: the quads between them go on past its end, side by side
-/// with the one that stays. Only detected features change (without kRequestedFeature). The most acute corners first, in
-/// rounds of corners that share no vertex, until nothing changes. On triangles no larger than quads, as whole edges go.
+/// corner has a scaled Jacobian of the sine of this angle at most. So the blunter of the two begins later, where it is
+/// 0.12 s (times the size there) away from the other one, or after 4 s: the quads between them go on past its end, side
+/// by side with the one that stays. Only detected features change (without kRequestedFeature). The most acute corners
+/// first, in rounds of corners that share no vertex, until nothing changes. On triangles no larger than quads, as whole
+/// edges go.
 /// Throws InvalidInput unless edgeLength is positive.
 SharpCornerReport trimSharpCorners(Mesh& mesh, double edgeLength, int threads = 1);
 

@@ -334,13 +334,12 @@ public:
         for (int sweep = 0; sweep < kMostIntegerSweeps; ++sweep)
         {
           report(progress, 0.5, "improving integers");
-          const bool strips = sweepStrips(length);
-          const bool moves = moveFreeVertices();
-          improved = improved || strips || moves;
-          if (!strips && !moves)
+          settleFreeVertices();
+          if (!sweepStrips(length))
           {
             break;
           }
+          improved = true;
         }
       }
       if (!improved)
@@ -477,6 +476,14 @@ private:
     refusal.time = localReason ? clock_ : 0;
     refusal.faces = search_.visitedFaces();
     return false;
+  }
+
+  /// Moves cost next to nothing beside searches, each of which they make out of date.
+  void settleFreeVertices()
+  {
+    for (int sweep = 0; sweep < kMostIntegerSweeps && moveFreeVertices(); ++sweep)
+    {
+    }
   }
 
   bool moveFreeVertices()

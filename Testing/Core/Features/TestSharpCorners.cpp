@@ -76,8 +76,8 @@ std::size_t featureEdges(const Mesh& mesh)
 
 TEST(SharpCorners, BlunterCurveBeginsWhereItIsAway)
 {
-  // The fold lifts it as far as it is away in the plane: by the root of 2 times the tangent of 5 degrees an edge, so it is
-  // 0.12 s = 0.6 away after 4.9 edges.
+  // The fold lifts it as far as it is away in the plane: by the root of 2 times the tangent of 5 degrees an edge, so
+  // it is 0.12 s = 0.6 away after 4.9 edges.
   Fork made = fork(5, true);
   ASSERT_EQ(made.straight, 40U);
   ASSERT_EQ(made.aslant, 30U);

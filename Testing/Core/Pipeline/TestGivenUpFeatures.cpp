@@ -26,8 +26,8 @@ namespace quadrille
 namespace
 {
 
-/// A block with a groove of one voxel, a step of one and a bump of one voxel in its top: for s = 3 voxels the bump is too
-/// small.
+/// A block with a groove of one voxel, a step of one and a bump of one voxel in its top: for s = 3 voxels the bump is
+/// too small.
 Mesh groovedBlock(double scale)
 {
   Mesh mesh = test::voxelSurface({ 24, 16, 12 }, 1,
