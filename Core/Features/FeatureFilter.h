@@ -18,11 +18,11 @@ struct FeatureFilterReport
   std::size_t keptEdges = 0;
 };
 
-/// Unmarks features that nobody asked for (without kRequestedFeature) and that are details below the edge length s: chains
-/// shorter than 4 s that end in the surface; whole groups of chains that hang together, loops among them, in a box with
-/// a diagonal below s; and the bluntest side of each patch between features that is on average (2 area / perimeter)
-/// narrower than 0.03 s. Chains run between vertices where other than two constrained edges meet. Features that the
-/// user gave stay. Repeated until nothing changes.
+/// Unmarks features that nobody asked for (without kRequestedFeature) and that are details below the edge length s:
+/// chains shorter than 4 s that end in the surface; whole groups of chains that hang together, loops among them, in a
+/// box with a diagonal below s; and the bluntest side of each patch between features that is on average (2 area /
+/// perimeter) narrower than 0.03 s. Chains run between vertices where other than two constrained edges meet. Features
+/// that the user gave stay. Repeated until nothing changes.
 /// Throws InvalidInput when edgeLength is not positive.
 FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int threads = 1);
 
