@@ -250,9 +250,8 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
   {
     length += (b - a).norm();
   }
-  const auto first = edges_->at(curve.front()[0]);
   const double step = std::max(
-    (first ? first->length : 0) / kPlacesAnEdge, length / static_cast<double>(mostPlacesOf(1)));
+    edgeLengthAt(curve.front()[0]) / kPlacesAnEdge, length / static_cast<double>(mostPlacesOf(1)));
   const std::size_t stride = strideOf(curve.size(), mostPlacesOf(1));
   double farthest = -1;
   for (std::size_t k = 0; k < curve.size(); k += stride)
@@ -263,8 +262,9 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
     for (int i = 0; i <= parts; ++i)
     {
       const Vector3 p = a + (b - a) * (parts > 0 ? static_cast<double>(i) / parts : 0);
-      const std::optional<NearestEdges::Place> there = edges_->at(p);
-      const double distance = there && there->length > 0 ? there->distance / there->length : -1;
+      // Not of the nearest edge alone, which may be a short one between long ones.
+      const double edgeLength = edgeLengthAt(p);
+      const double distance = edgeLength > 0 ? *edges_->distance(p) / edgeLength : -1;
       if (distance > farthest)
       {
         farthest = distance;
