@@ -16,10 +16,11 @@ had wrong on a cube: a row each, with its notices. Each model runs in a process 
 the others go on.
 
 A place is feasible unless the session does not give it and the judge sees why not: it lies on a feature or boundary,
-the way there crosses a feature (sharp edges, and lines that the quads have without constraints), or what lies between features has room for less than nine quads; of a size, half of the
+the way there crosses a feature, or what lies between features has room for less than nine quads; of a size, half of the
 area within its radius is nearer to features than half a quad of that size, as in strips narrower than two of them,
-across which a whole number need not come near it. A stroke has room where its features are two edge lengths away, and
-quads that turn from them to it have sizes that grow by at most a quarter an edge length, as the guide lets sizes grow.
+across which a whole number need not come near it. Features are sharp edges, and lines that the quads have without
+constraints. A stroke has room where its features are two edge lengths away, and quads that turn from them to it have
+sizes that grow by at most a quarter an edge length, as the guide lets sizes grow.
 Random sessions of all kinds of edits are made by `check/random_sessions.py MODEL... --sessions N --inside`.
 """
 import argparse
