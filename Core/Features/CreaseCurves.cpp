@@ -337,7 +337,7 @@ CreaseReport removeFalseCreases(
     }
     if (again)
     {
-      const FeatureFilterReport more = removeUnresolvedFeatures(mesh, edgeLength, false, threads);
+      const FeatureFilterReport more = removeUnresolvedFeatures(mesh, edgeLength, threads);
       filtered.removedEdges += more.removedEdges;
       filtered.keptEdges = more.keptEdges;
     }

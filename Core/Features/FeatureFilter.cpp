@@ -11,10 +11,13 @@
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <unordered_map>
 #include <vector>
 
 namespace quadrille
@@ -23,15 +26,10 @@ namespace
 {
 
 constexpr double kShortestDangling = 4;
-constexpr double kShortestLoop = 2;
-constexpr double kShortestMeanChain = 1;
-/// Length over length in steps of s. A circle of radius s has 1.04, one of 0.7 s 1.09; mesh edges that
-/// zigzag through noise have 1.2 and more.
-constexpr double kMostJagged = 1.1;
-
+/// Diagonal of the box round a group of chains that hang together, over s.
+constexpr double kSmallestGroup = 1;
 /// Mean width of a patch over s; there a quad is at least so much narrower than it is long.
-constexpr double kThinnestPatch = 0.25;
-constexpr double kThinnestDesignedPatch = 0.125;
+constexpr double kThinnestPatch = 0.03;
 /// Chains shorter than this part of a patch's longest one are its ends and not its sides.
 constexpr double kShortestSide = 0.5;
 
@@ -41,7 +39,6 @@ struct Chain
   std::vector<Index> halfEdges; ///< one of each edge
   double length = 0;
   double sizedLength = 0; ///< length over the size of quads there
-  double jaggedness = 1;  ///< length over its length in steps of s
   Index first = kInvalidIndex;
   Index last = kInvalidIndex;
   bool removable = true; ///< all of it was detected, none asked for, none on the boundary
@@ -51,8 +48,8 @@ class FeatureGraph
 {
 public:
   /// edges: constrainedEdges of the mesh.
-  FeatureGraph(const Mesh& mesh, double edgeLength, const std::vector<Index>& edges)
-    : mesh_(mesh), edgeLength_(edgeLength), edges_(edges), at_(edgesAtVertices(mesh, edges))
+  FeatureGraph(const Mesh& mesh, const std::vector<Index>& edges)
+    : mesh_(mesh), edges_(edges), at_(edgesAtVertices(mesh, edges))
   {
     traceChains();
   }
@@ -97,7 +94,6 @@ private:
   {
     Chain chain;
     Index v = start;
-    std::vector<Index> path{ start };
     while (true)
     {
       done[indexIn(edges_, h)] = 1;
@@ -107,7 +103,6 @@ private:
       chain.removable =
         chain.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
       v = mesh_.otherEnd(h, v);
-      path.push_back(v);
       if (at_.degree(v) != 2)
       {
         break;
@@ -124,45 +119,40 @@ private:
       chain.first = start;
       chain.last = v;
     }
-    chain.jaggedness = chain.length / std::max(steppedLength(path), 1e-12 * chain.length);
     chains_.push_back(std::move(chain));
   }
 
-  /// Length of the polyline through points of the path that are s (times the size there) apart along it.
-  double steppedLength(const std::vector<Index>& path) const
-  {
-    double sum = 0;
-    double walked = 0;
-    Vector3 last = mesh_.position[path.front()];
-    for (std::size_t i = 0; i + 1 < path.size(); ++i)
-    {
-      const Vector3& a = mesh_.position[path[i]];
-      const Vector3& b = mesh_.position[path[i + 1]];
-      const double length =
-        (b - a).norm() / std::sqrt(sizeAt(mesh_, path[i]) * sizeAt(mesh_, path[i + 1]));
-      double used = 0;
-      while (walked + length - used >= edgeLength_)
-      {
-        used += edgeLength_ - walked;
-        walked = 0;
-        const Vector3 point = a + (b - a) * (used / length);
-        sum += (point - last).norm();
-        last = point;
-      }
-      walked += length - used;
-    }
-    return sum + (mesh_.position[path.back()] - last).norm();
-  }
-
   const Mesh& mesh_;
-  double edgeLength_;
   const std::vector<Index>& edges_;
   EdgesAtVertices at_;
   std::vector<Chain> chains_;
 };
 
-/// For each chain a vertex that stands for all chains which hang together with it at their ends.
-std::vector<Index> chainComponents(const Mesh& mesh, const std::vector<Chain>& chains)
+/// Chains that hang together at their ends.
+struct ChainGroup
+{
+  Eigen::AlignedBox3d box;
+  double length = 0, sizedLength = 0;
+  bool removable = true;
+
+  void add(const Mesh& mesh, const Chain& chain)
+  {
+    for (const Index h : chain.halfEdges)
+    {
+      box.extend(mesh.position[mesh.origin[h]]);
+      box.extend(mesh.position[mesh.target(h)]);
+    }
+    length += chain.length;
+    sizedLength += chain.sizedLength;
+    removable = removable && chain.removable;
+  }
+
+  /// Over s, times the size there.
+  double extent() const { return box.diagonal().norm() * sizedLength / length; }
+};
+
+/// For each chain the number of its group.
+std::vector<Index> groupsOf(const Mesh& mesh, const std::vector<Chain>& chains)
 {
   DisjointSets nodes(mesh.vertexCount(), 1);
   for (const Chain& chain : chains)
@@ -172,14 +162,16 @@ std::vector<Index> chainComponents(const Mesh& mesh, const std::vector<Chain>& c
       nodes.join(chain.first, chain.last);
     }
   }
-  std::vector<Index> component(chains.size());
+  std::vector<Index> group(chains.size());
+  std::unordered_map<Index, Index> number;
   for (std::size_t i = 0; i < chains.size(); ++i)
   {
     const Chain& chain = chains[i];
-    component[i] =
-      nodes.find(chain.first == kInvalidIndex ? mesh.origin[chain.halfEdges.front()] : chain.first);
+    const bool isLoop = chain.first == kInvalidIndex;
+    const Index node = nodes.find(isLoop ? mesh.origin[chain.halfEdges.front()] : chain.first);
+    group[i] = number.try_emplace(node, static_cast<Index>(number.size())).first->second;
   }
-  return component;
+  return group;
 }
 
 /// Chain by chain; returns whether anything went.
@@ -187,32 +179,22 @@ bool dropChains(
   Mesh& mesh, double edgeLength, const FeatureGraph& graph, FeatureFilterReport& report)
 {
   const std::vector<Chain>& chains = graph.chains();
-  const std::vector<Index> component = chainComponents(mesh, chains);
-  std::vector<double> total(mesh.vertexCount(), 0);
-  std::vector<Index> count(mesh.vertexCount(), 0);
+  const std::vector<Index> groupOf = groupsOf(mesh, chains);
+  std::vector<ChainGroup> groups(chains.size());
   for (std::size_t i = 0; i < chains.size(); ++i)
   {
-    if (chains[i].removable)
-    {
-      total[component[i]] += chains[i].sizedLength;
-      ++count[component[i]];
-    }
+    groups[groupOf[i]].add(mesh, chains[i]);
   }
   bool removed = false;
   for (std::size_t i = 0; i < chains.size(); ++i)
   {
     const Chain& chain = chains[i];
-    if (!chain.removable)
-    {
-      continue;
-    }
-    const bool loop = chain.first == kInvalidIndex;
-    const bool dangling = !loop && (graph.endsThere(chain.first) || graph.endsThere(chain.last));
-    const bool tangle = total[component[i]] < kShortestMeanChain * edgeLength * count[component[i]];
-    if ((loop && chain.sizedLength < kShortestLoop * edgeLength) ||
-      (dangling &&
-        (chain.sizedLength < kShortestDangling * edgeLength || chain.jaggedness > kMostJagged)) ||
-      tangle)
+    const ChainGroup& group = groups[groupOf[i]];
+    const bool isDangling =
+      chain.first != kInvalidIndex && (graph.endsThere(chain.first) || graph.endsThere(chain.last));
+    const bool isShort = isDangling && chain.sizedLength < kShortestDangling * edgeLength;
+    const bool isSmall = group.removable && group.extent() < kSmallestGroup * edgeLength;
+    if (chain.removable && (isShort || isSmall))
     {
       unmarkFeatures(mesh, chain.halfEdges);
       report.removedEdges += chain.halfEdges.size();
@@ -394,9 +376,10 @@ private:
 };
 
 bool dropAlongThinPatches(
-  Mesh& mesh, double thinnest, const std::vector<Chain>& chains, FeatureFilterReport& report)
+  Mesh& mesh, double edgeLength, const std::vector<Chain>& chains, FeatureFilterReport& report)
 {
-  const std::vector<Index> drop = ThinPatches(mesh, thinnest, chains).chainsToDrop();
+  const ThinPatches patches(mesh, kThinnestPatch * edgeLength, chains);
+  const std::vector<Index> drop = patches.chainsToDrop();
   for (const Index c : drop)
   {
     unmarkFeatures(mesh, chains[c].halfEdges);
@@ -407,26 +390,25 @@ bool dropAlongThinPatches(
 
 /// One pass; returns whether anything went. Most scans have nothing to drop, and patches take memory for each
 /// half-edge. edges: constrainedEdges of the mesh.
-bool removeOnce(Mesh& mesh, double edgeLength, double thinnest, const std::vector<Index>& edges,
-  FeatureFilterReport& report)
+bool removeOnce(
+  Mesh& mesh, double edgeLength, const std::vector<Index>& edges, FeatureFilterReport& report)
 {
   if (std::none_of(edges.begin(), edges.end(), [&](Index h) { return isDetectedFeature(mesh, h); }))
   {
     return false;
   }
-  const FeatureGraph graph(mesh, edgeLength, edges);
+  const FeatureGraph graph(mesh, edges);
   const std::vector<Chain>& chains = graph.chains();
   const bool any =
     std::any_of(chains.begin(), chains.end(), [](const Chain& chain) { return chain.removable; });
   return any &&
     (dropChains(mesh, edgeLength, graph, report) ||
-      dropAlongThinPatches(mesh, thinnest, chains, report));
+      dropAlongThinPatches(mesh, edgeLength, chains, report));
 }
 
 } // namespace
 
-FeatureFilterReport removeUnresolvedFeatures(
-  Mesh& mesh, double edgeLength, bool isDesigned, int threads)
+FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int threads)
 {
   if (!(edgeLength > 0))
   {
@@ -435,8 +417,7 @@ FeatureFilterReport removeUnresolvedFeatures(
   FeatureFilterReport report;
   std::vector<Index> edges = constrainedEdges(mesh, threads);
   const auto isFree = [&](Index h) { return !mesh.isConstrained(h); };
-  const double thinnest = (isDesigned ? kThinnestDesignedPatch : kThinnestPatch) * edgeLength;
-  while (removeOnce(mesh, edgeLength, thinnest, edges, report))
+  while (removeOnce(mesh, edgeLength, edges, report))
   {
     edges.erase(std::remove_if(edges.begin(), edges.end(), isFree), edges.end());
   }

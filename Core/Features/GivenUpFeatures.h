@@ -15,13 +15,13 @@ namespace quadrille
 /// Why a curve of sharp edges is no feature of the quads.
 enum class FeatureLoss : std::uint8_t
 {
-  Unresolved, ///< too short, too tangled, or beside another one: see removeUnresolvedFeatures
-  NoCrease,   ///< noise that lies in a row: see removeFalseCreases
-  ShortArc,   ///< for the sake of an arc shorter than quads can have: see simplifyFeatureNetwork
-  FailedMap,  ///< near the place where a map, or its quads, failed
-  MidLine     ///< in a mirror plane, where quads across it were asked for
+  Unresolved,  ///< too short, too tangled, or beside another one: see removeUnresolvedFeatures
+  NoCrease,    ///< noise that lies in a row: see removeFalseCreases
+  SharpCorner, ///< beside another one, which it leaves at too small an angle: see trimSharpCorners
+  FailedMap,   ///< near the place where a map, or its quads, failed
+  MidLine      ///< in a mirror plane, where quads across it were asked for
 };
-/// "unresolved", "no crease", "short arc", "failed map", "mid-line".
+/// "unresolved", "no crease", "sharp corner", "failed map", "mid-line".
 const char* nameOf(FeatureLoss reason);
 /// "not followed: ...", for lists of small details.
 const char* whyNotFollowed(FeatureLoss reason);

@@ -5,7 +5,6 @@
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Features/FeatureFilter.h"
-#include "Features/FeatureNetwork.h"
 #include "Features/GivenUpFeatures.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/SmallParts.h"
@@ -86,12 +85,8 @@ std::vector<Index> unresolved(const RunContext& run, Mesh mesh)
   {
     flags &= (flags & kYieldingFeature) != 0 ? static_cast<std::uint8_t>(~kRequestedFeature) : 0xFF;
   }
-  const bool isDesigned = run.surface->facets.isDesigned;
   const std::vector<std::uint8_t> before = mesh.flags;
-  const double edgeLength = kCoarserFeatures * run.edgeLength;
-  FeatureFilterReport filtered =
-    removeUnresolvedFeatures(mesh, edgeLength, isDesigned, run.options.threads);
-  simplifyFeatureNetwork(mesh, edgeLength, isDesigned, filtered);
+  removeUnresolvedFeatures(mesh, kCoarserFeatures * run.edgeLength, run.options.threads);
   return lostFeatures(mesh, before);
 }
 

@@ -8,7 +8,7 @@
 #include "Base/Progress.h"
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
-#include "Features/FeatureNetwork.h"
+#include "Features/SharpCorners.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/Notices.h"
@@ -180,21 +180,26 @@ void noteGivenUp(FeatureLoss reason, std::size_t removed, const Mesh& mesh,
 void filterFeatures(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
 {
   Mesh& mesh = surface.mesh;
-  const bool isDesigned = surface.facets.isDesigned;
   std::vector<std::uint8_t> before = mesh.flags;
-  FeatureFilterReport filtered =
-    removeUnresolvedFeatures(mesh, sized.edgeLength, isDesigned, options.threads);
+  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, sized.edgeLength, options.threads);
   noteGivenUp(FeatureLoss::Unresolved, filtered.removedEdges, mesh, before, sized);
   CreaseReport creases;
-  if (judgesCreases(options) && !isDesigned)
+  if (judgesCreases(options) && !surface.facets.isDesigned)
   {
     creases = removeFalseCreases(mesh, sized.edgeLength, options.threads, filtered);
     noteGivenUp(FeatureLoss::NoCrease, creases.removedEdges, mesh, before, sized);
   }
-  const NetworkReport network =
-    simplifyFeatureNetwork(mesh, sized.edgeLength, isDesigned, filtered);
-  noteGivenUp(FeatureLoss::ShortArc, network.removedEdges, mesh, before, sized);
-  tell({ featureNotice(filtered), creases.text(), network.text() }, sized.notices);
+  tell({ featureNotice(filtered), creases.text() }, sized.notices);
+}
+
+/// On triangles no larger than quads.
+void trimCorners(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
+{
+  std::vector<std::uint8_t> before = surface.mesh.flags;
+  const SharpCornerReport trimmed =
+    trimSharpCorners(surface.mesh, sized.edgeLength, options.threads);
+  noteGivenUp(FeatureLoss::SharpCorner, trimmed.removedEdges, surface.mesh, before, sized);
+  tell({ trimmed.text() }, sized.notices);
 }
 
 /// Without small components and features that quads cannot resolve, in triangles no larger than quads.
@@ -207,6 +212,7 @@ void refine(PreparedSurface& surface, const RemeshOptions& options, SizedSurface
   filterFeatures(surface, options, sized);
   refineSurface(surface, sized.edgeLength, subProgress(options.progress, 0.1, 0.15, "Refining: "),
     options.threads);
+  trimCorners(surface, options, sized);
   sized.stages.add("refine", secondsNow() - start, before, surface.mesh.faceCount());
   tell({ surface.notice }, sized.notices);
 }

@@ -8,7 +8,6 @@
 #include "Base/TryCount.h"
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
-#include "Features/FeatureNetwork.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/SizedSurface.h"
@@ -368,14 +367,11 @@ void SymmetryRun::withFeatures(const std::function<void(Mesh&, double edgeLength
   Mesh mesh = whole_->surface.mesh;
   const double sizedArea = mesh.sizing.empty() ? surface().area : quadrille::sizedArea(mesh);
   const double edgeLength = targetEdgeLength(options_, sizedArea, made_.diagonal);
-  const bool isDesigned = whole_->surface.facets.isDesigned;
-  FeatureFilterReport filtered =
-    removeUnresolvedFeatures(mesh, edgeLength, isDesigned, options_.threads);
-  if (judgesCreases(options_) && !isDesigned)
+  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, edgeLength, options_.threads);
+  if (judgesCreases(options_) && !whole_->surface.facets.isDesigned)
   {
     removeFalseCreases(mesh, edgeLength, options_.threads, filtered);
   }
-  simplifyFeatureNetwork(mesh, edgeLength, isDesigned, filtered);
   act(mesh, edgeLength);
 }
 

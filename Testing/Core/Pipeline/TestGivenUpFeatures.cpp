@@ -6,7 +6,6 @@
 #include "Prepare/Prepare.h"
 
 #include "Base/Angles.h"
-#include "Features/FeatureNetwork.h"
 #include "MeshInput.h"
 #include "StaggeredTube.h"
 #include "TestMeshes.h"
@@ -27,11 +26,14 @@ namespace quadrille
 namespace
 {
 
-/// A block with a groove of one voxel and a step of one in its top: for s = 3 voxels their ends are arcs of s / 3.
+/// A block with a groove of one voxel, a step of one and a bump of one voxel in its top: for s = 3 voxels the bump is too
+/// small.
 Mesh groovedBlock(double scale)
 {
   Mesh mesh = test::voxelSurface({ 24, 16, 12 }, 1,
-    [](int i, int j, int k) { return k < 11 || (i > 12 && j != 8) || (k == 11 && i == 4); });
+    [](int i, int j, int k) {
+      return k < 11 || (i > 12 && j != 8) || (k == 11 && i == 4) || (k == 11 && i == 8 && j == 6);
+    });
   for (Vector3& p : mesh.position.editAll())
   {
     p *= scale;
@@ -45,6 +47,17 @@ RemeshOptions quadsOfLength(double edgeLength)
   options.edgeLength = edgeLength;
   options.threads = 1;
   return options;
+}
+
+double lengthOfFeatures(const Mesh& mesh)
+{
+  double length = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const bool isOne = mesh.isFeature(h) && !mesh.isBoundary(h) && h < mesh.twin[h];
+    length += isOne ? mesh.edgeVector(h).norm() : 0;
+  }
+  return length;
 }
 
 double givenUpLength(const RemeshResult& result)
@@ -69,13 +82,10 @@ TEST(GivenUpFeatures, WithThoseThatStayTheyAreAllThereWere)
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   ASSERT_FALSE(result.givenUpFeatures.empty());
   // Lengths of the input, to the rounding of the frame's grid.
-  EXPECT_NEAR(givenUpLength(result) + lengthOfFeatures(result.surface.mesh, 1),
-    lengthOfFeatures(before.mesh, 1), 1e-4);
+  EXPECT_NEAR(givenUpLength(result) + lengthOfFeatures(result.surface.mesh),
+    lengthOfFeatures(before.mesh), 1e-4);
   EXPECT_TRUE(std::any_of(result.givenUpFeatures.begin(), result.givenUpFeatures.end(),
-    [](const GivenUpCurve& curve) { return curve.reason == FeatureLoss::ShortArc; }));
-  EXPECT_TRUE(std::any_of(result.notices.begin(), result.notices.end(),
-    [](const std::string& text)
-    { return text.find("junctions of features were nearer") != std::string::npos; }));
+    [](const GivenUpCurve& curve) { return curve.reason == FeatureLoss::Unresolved; }));
   for (const GivenUpCurve& curve : result.givenUpFeatures)
   {
     EXPECT_NEAR(curve.lengthInQuads, curve.length / result.targetEdgeLength, 1e-6);
