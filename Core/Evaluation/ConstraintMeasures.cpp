@@ -28,14 +28,18 @@ constexpr std::size_t kLeastGuidePlaces = 100;
 /// Places on each edge of a curve that is as long as an edge of the quads.
 constexpr double kPlacesAnEdge = 8;
 
+/// Of its diagonals, twice as long as its area is large.
+Vector3 areaNormalOf(const QuadMesh& mesh, Index quad)
+{
+  const std::array<Index, 4>& corners = mesh.quads[quad];
+  return (mesh.points[corners[2]] - mesh.points[corners[0]])
+    .cross(mesh.points[corners[3]] - mesh.points[corners[1]]);
+}
+
 /// That of a square of the same area.
 double edgeLengthOf(const QuadMesh& mesh, Index quad)
 {
-  const std::array<Index, 4>& corners = mesh.quads[quad];
-  return std::sqrt(0.5 *
-    (mesh.points[corners[2]] - mesh.points[corners[0]])
-      .cross(mesh.points[corners[3]] - mesh.points[corners[1]])
-      .norm());
+  return std::sqrt(0.5 * areaNormalOf(mesh, quad).norm());
 }
 
 /// The least value that is not exceeded by this share of the weight.
@@ -184,11 +188,14 @@ ConstraintMeasure ConstraintMeasures::guide(
     {
       continue;
     }
+    // In the plane of the quad: where the surface bends, that of its triangle is another one.
+    const Vector3 normal = areaNormalOf(mesh_, there->quad).stableNormalized();
+    const auto inPlane = [&normal](const Vector3& along)
+    { return Vector3(along - normal * normal.dot(along)); };
     double angle = kPi / 2;
     for (const Vector3& along : there->along)
     {
-      const Vector3 inPlane = along - asked.normal * asked.normal.dot(along);
-      angle = std::min(angle, angleBetweenLines(inPlane, asked.direction));
+      angle = std::min(angle, angleBetweenLines(inPlane(along), inPlane(asked.direction)));
     }
     angles.push_back({ angle * 180 / kPi, asked.area });
     area += asked.area;
@@ -243,9 +250,8 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
   {
     length += (b - a).norm();
   }
-  const auto first = edges_->at(curve.front()[0]);
   const double step = std::max(
-    (first ? first->length : 0) / kPlacesAnEdge, length / static_cast<double>(mostPlacesOf(1)));
+    edgeLengthAt(curve.front()[0]) / kPlacesAnEdge, length / static_cast<double>(mostPlacesOf(1)));
   const std::size_t stride = strideOf(curve.size(), mostPlacesOf(1));
   double farthest = -1;
   for (std::size_t k = 0; k < curve.size(); k += stride)
@@ -256,8 +262,9 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
     for (int i = 0; i <= parts; ++i)
     {
       const Vector3 p = a + (b - a) * (parts > 0 ? static_cast<double>(i) / parts : 0);
-      const std::optional<NearestEdges::Place> there = edges_->at(p);
-      const double distance = there && there->length > 0 ? there->distance / there->length : -1;
+      // Not of the nearest edge alone, which may be a short one between long ones.
+      const double edgeLength = edgeLengthAt(p);
+      const double distance = edgeLength > 0 ? *edges_->distance(p) / edgeLength : -1;
       if (distance > farthest)
       {
         farthest = distance;

@@ -176,22 +176,17 @@ NearestEdges::NearestEdges(const QuadMesh& mesh) : mesh_(mesh)
   tree_ = BoxTree(boxes, 1);
 }
 
-std::optional<NearestEdges::Place> NearestEdges::at(const Vector3& p) const
+std::optional<double> NearestEdges::distance(const Vector3& p) const
 {
-  const auto distance = [&](Index i)
+  const auto to = [&](Index i)
   { return distanceToSegment(p, mesh_.points[edges_[i][0]], mesh_.points[edges_[i][1]]); };
   const Index nearest = tree_.nearest(p,
     [&](Index i)
     {
-      const double d = distance(i);
+      const double d = to(i);
       return d * d;
     });
-  if (nearest == kInvalidIndex)
-  {
-    return std::nullopt;
-  }
-  const std::array<Index, 2>& edge = edges_[nearest];
-  return Place{ distance(nearest), (mesh_.points[edge[0]] - mesh_.points[edge[1]]).norm() };
+  return nearest == kInvalidIndex ? std::nullopt : std::optional<double>(to(nearest));
 }
 
 } // namespace quadrille

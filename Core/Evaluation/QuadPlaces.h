@@ -71,14 +71,9 @@ private:
 class NearestEdges
 {
 public:
-  struct Place
-  {
-    double distance = 0; ///< in units of the points
-    double length = 0;   ///< of the edge
-  };
-
   explicit NearestEdges(const QuadMesh& mesh);
-  std::optional<Place> at(const Vector3& p) const;
+  /// In units of the points; none where there are no edges.
+  std::optional<double> distance(const Vector3& p) const;
 
 private:
   const QuadMesh& mesh_;

@@ -34,8 +34,9 @@ using Quad = QuadChanges::Quad;
 class QuadRepair
 {
 public:
-  QuadRepair(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices)
-    : patches_(mesh, quads, fixedVertices)
+  QuadRepair(
+    const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices, bool onlyInverted)
+    : patches_(mesh, quads, fixedVertices), onlyInverted_(onlyInverted)
   {
   }
 
@@ -103,7 +104,8 @@ private:
     FaceQuads best = patch->own;
     relaxQuads(best, *patch->ground, kSweepsOfRepair);
     QuadScore reached = scoreOf(best);
-    bool isDone = reached.bad == 0;
+    const QuadScore before = scoreOf(patch->own);
+    bool isDone = reached.bad == 0 || (onlyInverted_ && before.inverted == 0);
     FaceQuads tried = patch->own; // gets new points while they are tried
     QuadChanges changes(tried,
       [&](const QuadChanges::Change& change)
@@ -131,7 +133,7 @@ private:
     {
       changes.tryAt(h);
     }
-    if (!reached.hasFewerThan(scoreOf(patch->own)))
+    if (!reached.hasFewerThan(before))
     {
       return false;
     }
@@ -140,12 +142,13 @@ private:
   }
 
   QuadPatches patches_;
+  bool onlyInverted_;
 };
 
 } // namespace
 
-void repairQuads(
-  const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices, int threads)
+void repairQuads(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices,
+  int threads, bool onlyInverted)
 {
   // The worst first: what is changed for one is not changed for another in the same round.
   const auto badQuads = [&quads]
@@ -169,7 +172,7 @@ void repairQuads(
   for (int round = 0; round < kRoundsOfRepair && !bad.empty() && quads.polygonOffsets.empty();
        ++round)
   {
-    if (!QuadRepair(mesh, quads, fixedVertices).run(bad))
+    if (!QuadRepair(mesh, quads, fixedVertices, onlyInverted).run(bad))
     {
       break;
     }

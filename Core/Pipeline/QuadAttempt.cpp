@@ -227,6 +227,7 @@ void extractOnSurface(
   options.guides = map.guides;
   // Else quads of the curves' chains could go. Of the coarsest ones each is a patch of a layout, whatever its shape.
   options.replacesBad = map.curves.empty() && !run.options.coarsestIntegers;
+  options.keepsIrregular = surface->regularElsewhere;
   options.mapIsCertified = map.certificate.valid();
   options.shape = shape.get();
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");

@@ -549,11 +549,14 @@ class RandomSession:
                 return ""
             valence = int(made.valence[at] + made.boundary[at])
             return "" if valence == constraint["valence"] else f"the valence at {made.points[at]} is {valence}"
+        if kind in ("connection", "cycle"):
+            # What lies off the surface stands for its place on it.
+            points = made.points[[made.nearest(p) for p in constraint["points"]]]
         if kind == "connection":
-            return "" if has_chain(made, constraint["points"]) else "there is no straight chain between its ends"
+            return "" if has_chain(made, points) else "there is no straight chain between its ends"
         if kind == "cycle":
             reach = (REACH + 2 + (word["deviation"] or 0)) * made.length
-            return "" if has_loop(made, constraint["points"], reach) else "there is no closed straight chain there"
+            return "" if has_loop(made, points, reach) else "there is no closed straight chain there"
         if kind == "symmetry":
             image = self.session.mirror_point
             if image is None or not numpy.array_equal(image[image], numpy.arange(len(made.points))):

@@ -31,6 +31,10 @@ class Edits:
         self.random = random.Random(seed)
         self.points = self.session._points
         self.sizes = numpy.linalg.norm(self.points.max(axis=0) - self.points.min(axis=0))
+        self.normals = numpy.zeros_like(self.points)
+        corners = numpy.asarray(quadrille.to_arrays(mesh)[1])[:, :3]
+        a, b, c = (self.points[corners[:, i]] for i in range(3))
+        numpy.add.at(self.normals, corners.ravel(), numpy.repeat(numpy.cross(b - a, c - a), 3, axis=0))
         self.guides, self.ids = [], []
         self.problems = []
         self.cold = None
@@ -40,10 +44,12 @@ class Edits:
         return self.points[self.random.randrange(len(self.points))]
 
     def line(self):
-        """Between two points near each other."""
-        start = self.point()
+        """Between two points near each other, also along the surface: on the same side of it."""
+        at = self.random.randrange(len(self.points))
+        start = self.points[at]
         near = numpy.linalg.norm(self.points - start, axis=1)
-        around = numpy.flatnonzero((near > 0.05 * self.sizes) & (near < 0.1 * self.sizes))
+        around = numpy.flatnonzero((near > 0.05 * self.sizes) & (near < 0.1 * self.sizes) &
+                                   (self.normals @ self.normals[at] > 0))
         return numpy.array([start, self.points[self.random.choice(around.tolist())]])
 
     def irregular(self, valence=None):

@@ -166,11 +166,24 @@ class Surface:
                                               directed=False)
         self.region_area = numpy.bincount(self.region, self.areas)
 
+    def add_features(self, a, b):
+        """Segments of lines that the quads have, which the user sees: those off the sharp edges are features, too, such
+        as where a rounding begins."""
+        off = self.to_feature(0.5 * (a + b)) > STEP * self.edge
+        if off.any():
+            added = self._sampled(a[off], b[off])
+            places, directions = added[0].data, added[1]
+            if self.features is not None:
+                places = numpy.concatenate((self.features[0].data, places))
+                directions = numpy.concatenate((self.features[1], directions))
+            self.features = cKDTree(places), directions
+
     def _lines(self, starts, ends):
         """Samples of edges, their directions, and a tree of them; None where there are none."""
-        if not len(starts):
-            return None
-        a, b = self.points[starts], self.points[ends]
+        return self._sampled(self.points[starts], self.points[ends]) if len(starts) else None
+
+    @staticmethod
+    def _sampled(a, b):
         parts = (numpy.arange(10) + 0.5) / 10
         places = (a[:, None] + parts[:, None] * (b - a)[:, None]).reshape(-1, 3)
         return cKDTree(places), numpy.repeat(unit(b - a), len(parts), axis=0)
@@ -396,6 +409,16 @@ class Quads:
             share = far[0] / numpy.maximum(far[0] + far[1], 1e-300)
             families.append(unit((1 - share) * (one[1] - one[0]) + share * (other[1] - other[0])))
         return numpy.stack(families, axis=1)
+
+    def parts(self, lines):
+        """Of each quad the part of the mesh that it is in where lines, pairs of points, cut it."""
+        across = self.twin >= 0
+        ends = numpy.sort(numpy.stack((self.start, self.end), axis=1), axis=1)
+        key, cut = ends @ [len(self.points), 1], numpy.sort(lines, axis=1) @ [len(self.points), 1]
+        joined = numpy.flatnonzero(across & ~numpy.isin(key, cut))
+        count = len(self.quads)
+        return connected_components(coo_matrix((numpy.ones(len(joined)), (joined // 4, self.twin[joined] // 4)),
+                                               (count, count)), directed=False)[1]
 
     def irregular(self, valence=None):
         """Inside of the surface."""

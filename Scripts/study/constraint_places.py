@@ -18,8 +18,9 @@ the others go on.
 A place is feasible unless the session does not give it and the judge sees why not: it lies on a feature or boundary,
 the way there crosses a feature, or what lies between features has room for less than nine quads; of a size, half of the
 area within its radius is nearer to features than half a quad of that size, as in strips narrower than two of them,
-across which a whole number need not come near it. A stroke has room where its features are two edge lengths away, and
-quads that turn from them to it have sizes that grow by at most a quarter an edge length, as the guide lets sizes grow.
+across which a whole number need not come near it. Features are sharp edges, and lines that the quads have without
+constraints. A stroke has room where its features are two edge lengths away, and quads that turn from them to it have
+sizes that grow by at most a quarter an edge length, as the guide lets sizes grow.
 Random sessions of all kinds of edits are made by `check/random_sessions.py MODEL... --sessions N --inside`.
 """
 import argparse
@@ -36,6 +37,7 @@ import traceback
 
 import numpy
 import quadrille
+from scipy.spatial import cKDTree
 
 import constraint_judge as judge
 
@@ -96,6 +98,20 @@ MADE = {"cube": cube, "sphere": sphere, "ball": sphere}
 SETTINGS = {"ball": {"feature_angle": None}}
 
 
+def lines_of(lines, points):
+    """Pairs of points of the quads, of a vtkPolyData or a mesh of quadrille without VTK."""
+    if hasattr(lines, "GetLines"):
+        from vtkmodules.util.numpy_support import vtk_to_numpy  # pylint: disable=import-outside-toplevel
+        places = vtk_to_numpy(lines.GetPoints().GetData()) if lines.GetNumberOfPoints() else numpy.zeros((0, 3))
+        offsets, corners = (vtk_to_numpy(array) for array in (lines.GetLines().GetOffsetsArray(),
+                                                              lines.GetLines().GetConnectivityArray()))
+    else:
+        places, offsets, corners = lines.points, lines.offsets, lines.corners
+    ids = cKDTree(points).query(places)[1] if len(places) else numpy.zeros(0, int)
+    inner = numpy.setdiff1d(numpy.arange(max(len(corners) - 1, 0)), numpy.asarray(offsets[1:-1]) - 1)
+    return ids[numpy.stack((corners[inner], corners[inner + 1]), axis=1).astype(int)].reshape(-1, 2)
+
+
 def text_of(place):
     return "(" + ", ".join(f"{x:.6g}" for x in place) + ")"
 
@@ -119,6 +135,12 @@ class Model:
         faces = merged.reshape(-1)[numpy.asarray(faces)]
         faces = faces[(faces != numpy.roll(faces, 1, axis=1)).all(axis=1)]
         self.surface = judge.Surface(points, faces, edge, self.session.settings()["feature_angle"])
+        pairs = lines_of(quadrille.remesh(mesh, quads=quads, threads=threads, everything=True,
+                                          **SETTINGS.get(name, {})).lines, self.free.points)
+        self.surface.add_features(*(self.free.points[pairs[:, i]] for i in (0, 1)))
+        #: Of the free quads the parts that their lines bound, and the areas of these.
+        self.parts = self.free.parts(pairs)
+        self.part_area = numpy.bincount(self.parts, self.free.sizes ** 2)
         irregular = self.free.irregular()
         away = self.surface.to_feature(self.free.points[irregular]) > 0.5 * edge
         self.irregular = irregular[away]
@@ -148,10 +170,14 @@ class Model:
         return "no room between features" if self.area_at(place) < ROOM * edge ** 2 else ""
 
     def region(self, place):
-        return int(self.surface.region[self.surface.nearest(place)[1][0]])
+        """What sharp edges bound, and what lines bound."""
+        face = self.surface.nearest(place)[1]
+        below = self.free.below(numpy.atleast_2d(place), self.surface.normals[face])
+        return int(self.surface.region[face[0]]), int(self.parts[below[0]])
 
     def area_at(self, place):
-        return self.surface.region_area[self.region(place)]
+        region, part = self.region(place)
+        return min(self.surface.region_area[region], self.part_area[part])
 
     def regular_near(self, place):
         """Whether nothing irregular is within an edge length."""

@@ -319,6 +319,38 @@ TEST(ConstraintMeasures, SizesAreThoseOfTheQuadsWithinTheRadius)
   EXPECT_NEAR(missed.deviation, 2, 1e-12);
 }
 
+// 0.1 beside an edge of 0.2 whose quad has edges of 0.87 in the mean: a tenth of an edge length and not a half.
+TEST(ConstraintMeasures, CurvesAreMeasuredInTheEdgeLengthOfTheQuadsThere)
+{
+  QuadMesh mesh;
+  mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0.2, 0 }, { 0, 1, 0 } };
+  mesh.quads = { { 0, 1, 2, 3 } };
+  const double edges = (1 + 0.2 + std::hypot(1, 0.8) + 1) / 4;
+  const ConstraintMeasure word =
+    ConstraintMeasures(mesh).curve(std::vector<Vector3>{ { 1.1, 0, 0 }, { 1.1, 0.2, 0 } });
+  EXPECT_NEAR(word.deviation, 0.1 / edges, 1e-12);
+  EXPECT_TRUE(word.isMet);
+}
+
+// A quad that rises at 45 degrees from triangles in the plane z = 0, as at a bend of the surface.
+TEST(ConstraintMeasures, GuidesAreMeasuredInThePlaneOfTheQuad)
+{
+  QuadMesh mesh;
+  mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 1 }, { 0, 1, 1 } };
+  mesh.quads = { { 0, 1, 2, 3 } };
+  mesh.valence = { 2, 2, 2, 2 };
+  mesh.onBoundary = { 1, 1, 1, 1 };
+  GuidedPlace asked;
+  asked.place = { 0.5, 0.5, 0.5 };
+  asked.normal = Vector3::UnitZ();
+  asked.direction = Vector3(std::cos(radians(7)), std::sin(radians(7)), 0);
+  asked.area = 1;
+  const ConstraintMeasure word = ConstraintMeasures(mesh).guide({ asked }, 1);
+  // Half of the way aside is along the quad, by 1 / sqrt(2) along its rising edges.
+  EXPECT_NEAR(std::tan(radians(word.deviation)), std::tan(radians(7)) * std::sqrt(0.5), 1e-12);
+  EXPECT_TRUE(word.isMet);
+}
+
 TEST(ConstraintWords, WithoutQuadsNothingIsMetAndAPointOffTheSurfaceIsTold)
 {
   AskedConstraints asked;
