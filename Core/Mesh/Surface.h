@@ -140,7 +140,7 @@ struct PreparedSurface : SurfaceRequests
   double area = 0;
   double boundingBoxDiagonal = 0;
   Index components = 0;
-  /// Of positions, connectivity and features, or of what they were made; binds a log to its mesh.
+  /// Content hash of positions, connectivity and features; binds a decimation log to its mesh.
   std::uint64_t hash = 0;
 
   SharedArray<Index> sourcePolygon; ///< #F

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/DrawnOnSurface.h"
 
+#include "Mesh/ContentHash.h"
 #include "Prepare/Refine.h"
 #include "Requests/InsertPlaces.h"
 
@@ -28,11 +29,11 @@ std::vector<int> sizingOrdersOf(const std::vector<int>& orders, const PreparedSu
   return result;
 }
 
-/// The surface has more vertices than before. What is drawn on it tells it from others, without a look at all of it.
+/// The surface has more vertices than before.
 void noteAdded(
-  PreparedSurface& surface, Index before, ResultKey drawn, std::vector<std::string>& notices)
+  PreparedSurface& surface, Index before, int threads, std::vector<std::string>& notices)
 {
-  surface.hash = KeyMaker(surface.hash).add(drawn).key();
+  surface.hash = contentHash(surface.mesh, threads);
   const Index added = surface.mesh.vertexCount() - before;
   if (added > 0)
   {
@@ -60,7 +61,7 @@ void drawSizes(PreparedSurface& surface, const SurfaceInput& input, double edgeL
   const Index before = surface.mesh.vertexCount();
   insertSizes(surface, input.drawn.sizes, sizingOrdersOf(input.sizingOrders, surface),
     { edgeLength, threads });
-  noteAdded(surface, before, drawnKey(0, input, edgeLength), notices);
+  noteAdded(surface, before, threads, notices);
 }
 
 void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& features,
@@ -68,13 +69,7 @@ void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& f
 {
   const Index before = surface.mesh.vertexCount();
   insertFeatures(surface, features, { edgeLength, threads }, notices);
-  KeyMaker drawn;
-  drawn.add(edgeLength);
-  for (const FeatureRequest& feature : features)
-  {
-    drawn.add(feature.points);
-  }
-  noteAdded(surface, before, drawn.key(), notices);
+  noteAdded(surface, before, threads, notices);
 }
 
 AddedVertices drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
@@ -95,13 +90,7 @@ AddedVertices drawValences(PreparedSurface& surface, const std::vector<ValencePl
   {
     return AddedVertices::None;
   }
-  KeyMaker drawn;
-  drawn.add(edgeLength);
-  for (const ValencePlace& asked : valences)
-  {
-    drawn.add(asked.place, asked.valence);
-  }
-  noteAdded(surface, before, drawn.key(), notices);
+  noteAdded(surface, before, threads, notices);
   return inserted.splitConstraint ? AddedVertices::OnFeatures : AddedVertices::InFaces;
 }
 

@@ -9,6 +9,7 @@
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
 #include "Features/SharpCorners.h"
+#include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/Notices.h"
@@ -324,7 +325,7 @@ void addFeatures(const std::vector<FeatureRequest>& features, const RemeshOption
   filterFeatures(surface, options, sized);
   splitEnclosedFaces(surface);
   splitChords(surface);
-  surface.hash = KeyMaker(surface.hash).add(sized.key).key(); // which has what filters depend on
+  surface.hash = contentHash(surface.mesh, options.threads);
   const std::vector<ResultKey> endsNow = endsOfConstraints(surface.mesh);
   sized.own.changed = idsWhere(ends.size(), [&](Index v) { return ends[v] != endsNow[v]; });
   sized.own.features = surface.hash;
