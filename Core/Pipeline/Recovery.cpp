@@ -26,14 +26,12 @@ constexpr std::array<Strategy, 3> kForMaps{ {
   { Try::KeptDefects, 2, keptDefects },
 } };
 constexpr std::array<Strategy, 1> kForRounds{ {
-
   { Try::FewerFeatures, kMostFeatureDrops, fewerFeatures },
 } };
 
 /// Where no round has quads and none of the others is left, or may be tried any more.
 constexpr std::array<Strategy, 2> kLastResort{ {
   { Try::MoreQuads, 3, moreQuads },
-
   { Try::CoarserFeatures, 2, coarserFeatures },
 } };
 
