@@ -48,12 +48,13 @@ std::vector<Index> missingOn(const Level& level, std::vector<Index> wanted)
   return missing;
 }
 
-UniformOptions uniformOptions(double edgeLength, int threads)
+UniformOptions uniformOptions(double edgeLength, const HierarchyOptions& options)
 {
   UniformOptions uniform;
   uniform.edgeLength = 0.5 * edgeLength;
   uniform.curveTolerance = kCurveTolerance * edgeLength;
-  uniform.threads = threads;
+  uniform.isExact = options.isExact;
+  uniform.threads = options.threads;
   return uniform;
 }
 
@@ -89,7 +90,7 @@ IntermediateLevel::IntermediateLevel(
 void IntermediateLevel::thinOut(std::uint64_t fineHash, const HierarchyOptions& options)
 {
   DecimationMesh mesh(fine_, curvesOfFinest(fine_, edgeLength_), options.threads);
-  UniformOptions uniform = uniformOptions(edgeLength_, options.threads);
+  UniformOptions uniform = uniformOptions(edgeLength_, options);
   VertexScales scales = vertexScales(fine_, edgeLength_, options.isConnected, options.threads);
   anySmallComponent_ = scales.anySmallComponent;
   uniform.scale = std::move(scales.scale);
@@ -186,7 +187,7 @@ IntermediateLevel::ThinnedAgain IntermediateLevel::thinOutAgain(const RestoredLe
 {
   DecimationMesh mesh(restored.level.mesh, curvesOf(restored.level, fineCurves_));
   mesh.curveError = restored.curveError;
-  UniformOptions uniform = uniformOptions(edgeLength_, options.threads);
+  UniformOptions uniform = uniformOptions(edgeLength_, options);
   uniform.candidates = restored.touched;
   for (const Index v : vertices)
   {

@@ -48,6 +48,8 @@ std::string RepairReport::text() const
   append(text, triangulatedPolygons, "polygon triangulated", "polygons triangulated");
   append(text, mergedPoints, "coincident point merged", "coincident points merged");
   append(text, degenerateFaces, "degenerate face removed", "degenerate faces removed");
+  append(text, flippedCaps, "vertex put onto the edge it lies on",
+    "vertices put onto the edges they lie on");
   append(text, duplicateFaces, "duplicate face removed", "duplicate faces removed");
   append(text, isolatedPoints, "isolated point dropped", "isolated points dropped");
   append(text, nonManifoldEdges, "non-manifold edge split", "non-manifold edges split");

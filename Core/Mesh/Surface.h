@@ -77,6 +77,7 @@ struct RepairReport
   std::size_t triangulatedPolygons = 0;
   std::size_t mergedPoints = 0;        ///< coincident points of a soup (STL) that were joined
   std::size_t degenerateFaces = 0;     ///< removed or collapsed: repeated corner, zero area
+  std::size_t flippedCaps = 0;         ///< see flipCaps
   std::size_t duplicateFaces = 0;      ///< removed
   std::size_t isolatedPoints = 0;      ///< dropped
   std::size_t nonManifoldEdges = 0;    ///< edges of more than two faces, split into sheets

@@ -106,8 +106,9 @@ void addAll(RunFields& fields, RunFields more)
 std::vector<std::pair<std::string, std::size_t>> repairCounts(const RepairReport& r)
 {
   return { { "triangulated_polygons", r.triangulatedPolygons }, { "merged_points", r.mergedPoints },
-    { "degenerate_faces", r.degenerateFaces }, { "duplicate_faces", r.duplicateFaces },
-    { "isolated_points", r.isolatedPoints }, { "non_manifold_edges", r.nonManifoldEdges },
+    { "degenerate_faces", r.degenerateFaces }, { "flipped_caps", r.flippedCaps },
+    { "duplicate_faces", r.duplicateFaces }, { "isolated_points", r.isolatedPoints },
+    { "non_manifold_edges", r.nonManifoldEdges },
     { "non_manifold_vertices", r.nonManifoldVertices }, { "reoriented_faces", r.reorientedFaces },
     { "removed_components", r.removedComponents }, { "refined_faces", r.refinedFaces },
     { "closed_handles", r.closedHandles }, { "filled_holes", r.filledHoles } };

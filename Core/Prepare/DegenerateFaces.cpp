@@ -17,6 +17,10 @@ namespace
 
 constexpr std::size_t kDegenerateChunk = 65536;
 
+/// See flipCaps.
+constexpr double kOnEdge = 1e-3;
+constexpr double kOnEdgeOfBox = 1e-4;
+
 /// An edge this much shorter than the longest one is collapsed; a longer one means a cap.
 constexpr double kNeedleEdge = 1e-9;
 
@@ -128,6 +132,91 @@ private:
   std::priority_queue<Sliver> queue_;
 };
 
+/// Height over the longest edge, per its length.
+double flatness(const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  const double longest =
+    std::max({ (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() });
+  return longest > 0 ? (b - a).cross(c - a).norm() / longest : 0;
+}
+
+class CapFlipper
+{
+public:
+  explicit CapFlipper(PreparedSurface& surface)
+    : surface_(surface), mesh_(surface.mesh), highest_(kOnEdgeOfBox * surface.boundingBoxDiagonal)
+  {
+  }
+
+  bool isCap(Index f) const
+  {
+    if (!(flatness(mesh_.position[mesh_.origin[3 * f]], mesh_.position[mesh_.origin[3 * f + 1]],
+            mesh_.position[mesh_.origin[3 * f + 2]]) < kOnEdge))
+    {
+      return false; // nearly all
+    }
+    const Index longest = longestEdge(mesh_, f);
+    const Vector3 edge = mesh_.edgeVector(longest);
+    const Vector3 beyond = mesh_.edgeVector(Mesh::next(longest));
+    const double length = edge.norm();
+    const double along = length > 0 ? -edge.dot(beyond) / length : 0; // from the end back
+    const double height = length > 0 ? edge.cross(beyond).norm() / length : 0;
+    const double least = kOnEdge * length;
+    // Near its ends it is a needle.
+    return height < std::min(least, highest_) && along > least && along < length - least;
+  }
+
+  void push(Index f)
+  {
+    if (isCap(f))
+    {
+      queue_.push({ squaredLength(mesh_, longestEdge(mesh_, f)), f });
+    }
+  }
+
+  std::size_t run()
+  {
+    std::size_t flips = 0;
+    while (!queue_.empty())
+    {
+      const Index f = queue_.top().face;
+      queue_.pop();
+      const Index h = longestEdge(mesh_, f);
+      if (isCap(f) && isBetterFlipped(h))
+      {
+        const Index g = Mesh::face(mesh_.twin[h]);
+        flipSliver(surface_, h);
+        ++flips;
+        push(f);
+        push(g);
+      }
+    }
+    return flips;
+  }
+
+private:
+  /// The flattest face is less flat afterwards, so this ends, and none is turned over.
+  bool isBetterFlipped(Index h) const
+  {
+    if (!mayFlip(mesh_, h))
+    {
+      return false;
+    }
+    const Index g = mesh_.twin[h];
+    const auto at = [&](Index e) -> const Vector3& { return mesh_.position[mesh_.origin[e]]; };
+    const Vector3 &a = at(h), &b = at(g), &c = at(Mesh::previous(h)), &d = at(Mesh::previous(g));
+    const Vector3 normal = mesh_.doubleAreaNormal(Mesh::face(g));
+    return std::min(flatness(a, d, c), flatness(b, c, d)) >
+      std::min(flatness(a, b, c), flatness(b, a, d)) &&
+      (d - a).cross(c - a).dot(normal) > 0 && (c - b).cross(d - b).dot(normal) > 0;
+  }
+
+  PreparedSurface& surface_;
+  Mesh& mesh_;
+  double highest_;
+  std::priority_queue<Sliver> queue_;
+};
+
 std::vector<Index> findDegenerate(const Mesh& mesh, int threads)
 {
   return parallelSelect(
@@ -160,6 +249,17 @@ std::size_t removeDegenerateFaces(PreparedSurface& surface, int threads)
   }
   remover.run();
   return faces.size();
+}
+
+std::size_t flipCaps(PreparedSurface& surface, int threads)
+{
+  CapFlipper flipper(surface);
+  for (const Index f : parallelSelect(surface.mesh.faceCount(), kDegenerateChunk, threads,
+         [&](Index face) { return flipper.isCap(face); }))
+  {
+    flipper.push(f);
+  }
+  return flipper.run();
 }
 
 } // namespace quadrille

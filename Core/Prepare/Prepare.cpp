@@ -15,6 +15,7 @@
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/Triangulate.h"
 #include "Prepare/CleanSurface.h"
+#include "Prepare/DegenerateFaces.h"
 #include "Prepare/Repair.h"
 #include "Requests/Guides.h"
 
@@ -116,11 +117,17 @@ double sumOfAreas(const Mesh& mesh, int threads)
   return area;
 }
 
+/// Box, area, and no caps.
 void measure(PreparedSurface& surface, int threads)
 {
-  surface.area = sumOfAreas(surface.mesh, threads);
   const PointBox box = boxOfPoints(surface.mesh.position, threads);
   surface.boundingBoxDiagonal = (box.high - box.low).norm();
+  surface.repair.flippedCaps = flipCaps(surface, threads);
+  if (surface.repair.flippedCaps > 0)
+  {
+    orderSurface(surface, threads);
+  }
+  surface.area = sumOfAreas(surface.mesh, threads);
 }
 
 } // namespace
@@ -165,9 +172,9 @@ PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& optio
     repairSeconds += watch.lap();
   }
 
+  measure(surface, options.threads);
   report(options.progress, 0.8, "Finding features");
   markFeatures(surface, input, options);
-  measure(surface, options.threads);
   collectRequests(input, surface, options.threads);
   collectSizing(input, surface);
   surface.hash = contentHash(surface.mesh, options.threads);

@@ -25,6 +25,8 @@ constexpr Sentence kSentences[] = {
     " points were joined with others at the same place" },
   { &RepairReport::degenerateFaces, " face without area was removed",
     " faces without area were removed" },
+  { &RepairReport::flippedCaps, " point beside an edge was made one of the edge",
+    " points beside edges were made points of the edges" },
   { &RepairReport::duplicateFaces, " face that was there already was removed",
     " faces that were there already were removed" },
   { &RepairReport::isolatedPoints, " point that no face uses was left out",

@@ -261,6 +261,26 @@ TEST(Repair, FacesWithARepeatedCornerGo)
   EXPECT_EQ(surface.mesh.faceCount(), 80u);
 }
 
+TEST(Repair, AVertexBesideAnEdgeIsPutOntoIt)
+{
+  // The top of a box has a vertex beside the middle of one edge; a face that is nearly a line fills the crack.
+  for (const auto& [offset, flips] : { std::pair(1e-5, 1u), std::pair(1e-2, 0u) })
+  {
+    std::vector<Vector3> points = cubeCorners({ 0, 0, 0 });
+    points.emplace_back(0.5, offset, 1); // 8, beside the edge from 4 to 5
+    std::vector<std::vector<Index>> polygons = cubeSides(0);
+    polygons[1] = { 4, 8, 5, 7, 6 };
+    polygons.push_back({ 4, 5, 8 });
+    const SurfaceInput input = makeInput(points, polygons);
+    const PreparedSurface surface = prepare(input, 0.5);
+    expectSound(surface, input);
+    EXPECT_EQ(surface.repair.flippedCaps, flips);
+    EXPECT_EQ(
+      featureHalfEdges(surface.mesh), 24u + 2 * flips); // the edge of the box has two parts then
+    EXPECT_NEAR(signedVolume(surface.mesh), 1, offset);
+  }
+}
+
 TEST(Repair, CapsAreFlippedAndNoHoleOpens)
 {
   // The top of a box has a vertex in the middle of one edge that the side does not know; faces without
