@@ -18,8 +18,8 @@ namespace
 constexpr std::size_t kDegenerateChunk = 65536;
 
 /// See flipCaps.
-constexpr double kOnEdge = 1e-3;
-constexpr double kOnEdgeOfBox = 1e-4;
+constexpr double kCapHeight = 1e-3;
+constexpr double kCapHeightOfBox = 1e-4;
 
 /// An edge this much shorter than the longest one is collapsed; a longer one means a cap.
 constexpr double kNeedleEdge = 1e-9;
@@ -144,14 +144,15 @@ class CapFlipper
 {
 public:
   explicit CapFlipper(PreparedSurface& surface)
-    : surface_(surface), mesh_(surface.mesh), highest_(kOnEdgeOfBox * surface.boundingBoxDiagonal)
+    : surface_(surface), mesh_(surface.mesh),
+      highest_(kCapHeightOfBox * surface.boundingBoxDiagonal)
   {
   }
 
   bool isCap(Index f) const
   {
     if (!(flatness(mesh_.position[mesh_.origin[3 * f]], mesh_.position[mesh_.origin[3 * f + 1]],
-            mesh_.position[mesh_.origin[3 * f + 2]]) < kOnEdge))
+            mesh_.position[mesh_.origin[3 * f + 2]]) < kCapHeight))
     {
       return false; // nearly all
     }
@@ -161,7 +162,7 @@ public:
     const double length = edge.norm();
     const double along = length > 0 ? -edge.dot(beyond) / length : 0; // from the end back
     const double height = length > 0 ? edge.cross(beyond).norm() / length : 0;
-    const double least = kOnEdge * length;
+    const double least = kCapHeight * length;
     // Near its ends it is a needle.
     return height < std::min(least, highest_) && along > least && along < length - least;
   }
