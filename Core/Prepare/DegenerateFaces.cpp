@@ -20,6 +20,8 @@ constexpr std::size_t kDegenerateChunk = 65536;
 /// See flipCaps.
 constexpr double kCapHeight = 1e-3;
 constexpr double kCapHeightOfBox = 1e-4;
+/// Cosine of the angle by which a flip may turn the face beyond the edge: there, too, the vertex is as good as on it.
+constexpr double kSamePlane = 0.995;
 
 /// An edge this much shorter than the longest one is collapsed; a longer one means a cap.
 constexpr double kNeedleEdge = 1e-9;
@@ -196,7 +198,12 @@ public:
   }
 
 private:
-  /// The flattest face is less flat afterwards, so this ends, and none is turned over.
+  static bool keepsPlane(const Vector3& made, const Vector3& before)
+  {
+    return made.dot(before) > kSamePlane * made.norm() * before.norm();
+  }
+
+  /// The flattest face is less flat afterwards, so this ends, and the face beyond the edge stays in its plane.
   bool isBetterFlipped(Index h) const
   {
     if (!mayFlip(mesh_, h))
@@ -209,7 +216,7 @@ private:
     const Vector3 normal = mesh_.doubleAreaNormal(Mesh::face(g));
     return std::min(flatness(a, d, c), flatness(b, c, d)) >
       std::min(flatness(a, b, c), flatness(b, a, d)) &&
-      (d - a).cross(c - a).dot(normal) > 0 && (c - b).cross(d - b).dot(normal) > 0;
+      keepsPlane((d - a).cross(c - a), normal) && keepsPlane((c - b).cross(d - b), normal);
   }
 
   PreparedSurface& surface_;
