@@ -392,7 +392,7 @@ class Model:
         radius = float(self.random.choice((0, 1.5))) * self.surface.edge
         return self.ask_stroke(*drawn, radius)
 
-    def ask_stroke(self, points, course, room, radius, clear=0):
+    def ask_stroke(self, points, course, room, radius):
         points = numpy.array(points)
         turn = judge.judge_stroke(self.surface, self.free, course, radius).deviation
         off = self.surface.to_feature(course.places).min() / self.free.length_at(course.places)
@@ -400,7 +400,7 @@ class Model:
         return Ask("stroke" if room else "stroke near features",
                    f"radius {radius:.4g} {' '.join(map(text_of, points))}",
                    lambda s: s.add_guide(points, radius=radius),
-                   lambda quads: judge.judge_stroke(self.surface, quads, course, radius, clear))
+                   lambda quads: judge.judge_stroke(self.surface, quads, course, radius))
 
     def size(self):
         place = self.centre()
@@ -522,8 +522,7 @@ def all_classes(arguments, send):
 
 
 def cube_table(arguments, send):
-    """The rows of the cube's table. A stroke of a large radius comes near the sides' borders: quads do not count there.
-    """
+    """The rows of the cube's table. A stroke of a large radius reaches the sides' borders, which leave it no room."""
     model = Model("cube", arguments["quads"], arguments["seed"], arguments["threads"])
     step = model.surface.edge
 
@@ -537,8 +536,8 @@ def cube_table(arguments, send):
                 lambda quads: judge.judge_valence(model.surface, quads, middle, 3))]
     for ends in (((0.2, 0.3, 1), (0.8, 0.6, 1)), ((0.2, 0.5, 1), (0.8, 0.5, 1)), ((0.2, 0.8, 1), (0.8, 0.2, 1))):
         asks.append(model.ask_feature(*line(*ends)))
-    for radius in (0, 0.1, 0.3):
-        asks.append(model.ask_stroke(*line((0.3, 0.2, 1), (0.7, 0.8, 1)), True, radius, STROKE_ROOM))
+    for radius, room in ((0, True), (0.1, True), (0.3, False)):
+        asks.append(model.ask_stroke(*line((0.3, 0.2, 1), (0.7, 0.8, 1)), room, radius))
     asks.append(model.ask_size(middle, 0.4, 0.2))
     ring = numpy.array([(0, 0, 0.37), (1, 0, 0.37), (1, 1, 0.37), (0, 1, 0.37), (0, 0, 0.37)], float)
     asks.append(dataclasses.replace(model.ask_cycle(judge.Course(ring, step)), excuse=""))
