@@ -124,7 +124,7 @@ struct HeldCandidate
   }
 };
 
-/// Vertices at the points of the held ones.
+/// Vertices of curves at the points of the held ones.
 std::vector<HeldCandidate> candidatesOf(const SurfaceInput& input, const PreparedSurface& surface)
 {
   const Mesh& mesh = surface.mesh;
@@ -148,15 +148,16 @@ std::vector<HeldCandidate> candidatesOf(const SurfaceInput& input, const Prepare
     for (; at != byPoint.end() && at->first == point; ++at)
     {
       const HeldVertex& held = input.held[at->second];
-      if (curves[v] != kInvalidIndex)
-      {
-        candidates.push_back({ at->second, (mesh.position[v] - held.place).squaredNorm(), v });
-      }
+      candidates.push_back({ at->second, (mesh.position[v] - held.place).squaredNorm(), v });
     }
   };
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     pollNowAndThen(h);
+    if (curves[mesh.origin[h]] == kInvalidIndex)
+    {
+      continue;
+    }
     const Index f = Mesh::face(h);
     const bool isRefined =
       !surface.refinedEntry.empty() && surface.refinedEntry[f] != kInvalidIndex;

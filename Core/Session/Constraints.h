@@ -10,6 +10,7 @@
 #include "Symmetry/Isometry.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -80,6 +81,13 @@ struct IrregularVertex
   {
     return place == other.place && valence == other.valence;
   }
+};
+
+/// Of the surface under quads, where operations may not take irregular vertices from, or put them.
+struct FixedPlaces
+{
+  std::vector<std::array<Vector3, 2>> edges;      ///< of features and boundaries, each once
+  std::vector<std::array<Vector3, 3>> withoutMap; ///< triangles of faces that have no map
 };
 
 enum class IrregularOperation

@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
+#include "Base/Progress.h"
 #include "Base/Refuse.h"
 #include "Mesh/Distance.h"
 #include "Session/IrregularMatch.h"
@@ -26,6 +27,16 @@ Index pointNearCorner(const PreparedSurface& surface, Index h)
   const SourceLocation source = surface.locate(Mesh::face(h), cornerWeight(h));
   const auto* nearest = std::max_element(source.weights.begin(), source.weights.end());
   return source.points[static_cast<std::size_t>(nearest - source.weights.begin())];
+}
+
+bool isInside(const OnCurves& onCurves, Index v)
+{
+  return onCurves.vertices[v] == 0;
+}
+
+bool hasMap(const std::vector<int>& turns, Index v)
+{
+  return turns[v] != 0;
 }
 
 /// One operation, being applied.
@@ -68,6 +79,7 @@ private:
 
   const IrregularVertex& vertexNear(std::size_t i) const
   {
+    requireMap(where_.places.nearestPlace(edit_.points[i]).point);
     if (irregular_.empty())
     {
       refuse(name_, " needs an irregular vertex near ", placeText(edit_.points[i]),
@@ -103,7 +115,8 @@ private:
         return vertex.place;
       }
     }
-    for (const auto& [a, b] : where_.fixedEdges)
+    requireMap(place);
+    for (const auto& [a, b] : where_.fixed.edges)
     {
       if (distanceToSegment(place, a, b) <= where_.sameWithin)
       {
@@ -112,6 +125,18 @@ private:
       }
     }
     return place;
+  }
+  /// Quads that fill a face without a map have irregular vertices that no operation can take.
+  void requireMap(const Vector3& place) const
+  {
+    for (const auto& [a, b, c] : where_.fixed.withoutMap)
+    {
+      if ((nearestOnTriangle(place, a, b, c) - place).norm() <= where_.sameWithin)
+      {
+        refuse(name_, " needs quads of a map, but the face between sharp edges at ",
+          placeText(place), " has no map with quads of this size: ask for more quads");
+      }
+    }
   }
   void add(const Vector3& place, int index) { indices_[place] += index; }
 
@@ -263,7 +288,7 @@ std::vector<IrregularVertex> irregularVertices(const MadeSurface& made,
   std::size_t open = 0;
   for (Index v = 0; v < turns.size(); ++v)
   {
-    isOpen[v] = onCurves.vertices[v] == 0 && turns[v] != kRegularValence;
+    isOpen[v] = isInside(onCurves, v) && hasMap(turns, v) && turns[v] != kRegularValence;
     open += isOpen[v];
   }
   for (Index h = 0; open > 0 && h < mesh.halfEdgeCount(); ++h)
@@ -293,6 +318,27 @@ std::vector<IrregularVertex> irregularVertices(const MadeSurface& made,
     [](const IrregularVertex& a, const IrregularVertex& b)
     { return PlaceOrder()(a.place, b.place); });
   return irregular;
+}
+
+std::vector<std::array<Vector3, 3>> trianglesWithoutMap(
+  const MadeSurface& made, const std::vector<int>& turns, const OnCurves& onCurves)
+{
+  const Mesh& mesh = made.surface.mesh;
+  std::vector<std::array<Vector3, 3>> triangles;
+  for (Index h = 0; !turns.empty() && h < mesh.halfEdgeCount(); h += 3)
+  {
+    pollNowAndThen(h);
+    const auto isWithout = [&](Index corner)
+    {
+      const Index v = mesh.origin[corner];
+      return isInside(onCurves, v) && !hasMap(turns, v);
+    };
+    if (isWithout(h) || isWithout(h + 1) || isWithout(h + 2))
+    {
+      triangles.push_back({ made.placeAt(h), made.placeAt(h + 1), made.placeAt(h + 2) });
+    }
+  }
+  return triangles;
 }
 
 std::vector<HeldVertex> featureVertices(

@@ -40,11 +40,14 @@ OnCurves findOnCurves(const MadeSurface& made, int threads);
 
 /// Irregular vertices of a result inside of the surface, off its features, in the order of places. They are those of
 /// the map: the quads have them at the same vertices of the surface, from which smoothing may move them; at those that
-/// were asked for they are. turns: RemeshResult::turns; asked: a vertex within takenWithin of one of these, with its
-/// valence, is that one, and has its place.
+/// were asked for they are. turns: RemeshResult::turns, 0 inside of faces without a map, which have none. asked: a
+/// vertex within takenWithin of one of these, with its valence, is that one, and has its place.
 std::vector<IrregularVertex> irregularVertices(const MadeSurface& made,
   const std::vector<int>& turns, const OnCurves& onCurves, const std::vector<ValencePlace>& asked,
   double takenWithin);
+/// The triangles with a vertex off curves that has no turns: inside of faces without a map.
+std::vector<std::array<Vector3, 3>> trianglesWithoutMap(
+  const MadeSurface& made, const std::vector<int>& turns, const OnCurves& onCurves);
 /// Ends, corners and bends of features and boundaries, ascending by point of the input. onFeatures: of the
 /// RemeshResult.
 std::vector<HeldVertex> featureVertices(
@@ -54,7 +57,7 @@ std::vector<HeldVertex> featureVertices(
 struct PlacesOfEdits
 {
   const SurfacePlaces& places;
-  const std::vector<std::array<Vector3, 2>>& fixedEdges; ///< OnCurves::edges
+  const FixedPlaces& fixed;
   double sameWithin = 0; ///< places that are no farther apart are one
 };
 

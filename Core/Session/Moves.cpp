@@ -63,7 +63,7 @@ public:
     const OnCurves onCurves = findOnCurves(made, threads);
     irregular_ = irregularVertices(made, without.turns, onCurves, surface.drawn.valences,
       kTakenVertex * without.targetEdgeLength);
-    fixedEdges_ = onCurves.edges;
+    fixed_ = { onCurves.edges, trianglesWithoutMap(made, without.turns, onCurves) };
     onFeatures_ = featureVertices(made, without.onFeatures);
   }
 
@@ -76,7 +76,7 @@ public:
     try
     {
       resolveEdit(edit, "move " + std::to_string(move.source),
-        { where_.places, fixedEdges_, where_.sameWithin }, irregular_);
+        { where_.places, fixed_, where_.sameWithin }, irregular_);
     }
     catch (const InvalidInput& error)
     {
@@ -113,7 +113,7 @@ private:
 
   const PlacesOfSession& where_;
   std::vector<IrregularVertex> irregular_;
-  std::vector<std::array<Vector3, 2>> fixedEdges_;
+  FixedPlaces fixed_;
   std::vector<HeldVertex> onFeatures_;
   IrregularList list_;
   SessionConstraints constraints_;

@@ -138,8 +138,8 @@ std::size_t SessionResult::bytes() const
   return bytesOf(quads.points) + bytesOf(quads.quads) + bytesOf(quads.sourceFace) +
     bytesOf(quads.sourceWeights) + bytesOf(quads.quadSourceFace) +
     bytesOf(quads.quadSourceWeights) + bytesOf(quads.valence) + bytesOf(quads.onBoundary) +
-    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedEdges) + bytesOf(onFeatures) +
-    bytesOf(mirrorPoint) + bytesOf(rotatedPoint) + sizeof(*this);
+    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixed.edges) + bytesOf(fixed.withoutMap) +
+    bytesOf(onFeatures) + bytesOf(mirrorPoint) + bytesOf(rotatedPoint) + sizeof(*this);
 }
 
 std::uint64_t surfaceHash(const SurfaceInput& surface, int threads)
@@ -367,7 +367,7 @@ int Session::add(ConstraintContent content)
         now ? now->report.status.message : "the run was stopped");
     }
     const PlacesOfSession where = data_->places(settings());
-    resolveEdit(*edit, name, { where.places, now->fixedEdges, where.sameWithin }, now->irregular);
+    resolveEdit(*edit, name, { where.places, now->fixed, where.sameWithin }, now->irregular);
     edit->upon = data_->linksInForce();
     edit->onFeatures = now->onFeatures;
     edit->shown = irregularPoints(now->quads);
@@ -395,9 +395,9 @@ void Session::edit(int id, ConstraintContent content)
     const auto& made = std::get<IrregularEdit>(before.content);
     const std::shared_ptr<const SessionResult> now = result();
     const PlacesOfSession where = data_->places(settings());
-    const std::vector<std::array<Vector3, 2>> none;
-    resolveEdit(*edit, before.name(),
-      { where.places, now ? now->fixedEdges : none, where.sameWithin }, made.before);
+    const FixedPlaces none;
+    resolveEdit(*edit, before.name(), { where.places, now ? now->fixed : none, where.sameWithin },
+      made.before);
     edit->upon = made.upon;
     edit->onFeatures = made.onFeatures;
     edit->shown = made.shown;

@@ -59,8 +59,7 @@ struct SessionResult
   SessionReport report;
   QuadMesh quads;
   std::vector<IrregularVertex> irregular; ///< in the order of places
-  /// Of the surface under the quads, on features and boundaries: what no irregular vertex can be moved to.
-  std::vector<std::array<Vector3, 2>> fixedEdges;
+  FixedPlaces fixed;
   std::vector<HeldVertex> onFeatures; ///< ends, corners and bends of these, ascending by point
   double targetEdgeLength = 0;
   std::size_t targetQuads = 0;

@@ -169,7 +169,7 @@ private:
       const auto onCurves = data_.onCurvesOf(surface);
       result.irregular = irregularVertices(surface, made.turns, *onCurves,
         composed_.input.drawn.valences, kTakenVertex * made.targetEdgeLength);
-      result.fixedEdges = onCurves->edges;
+      result.fixed = { onCurves->edges, trianglesWithoutMap(surface, made.turns, *onCurves) };
       result.onFeatures = featureVertices(surface, made.onFeatures);
     }
   }

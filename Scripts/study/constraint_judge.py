@@ -618,9 +618,9 @@ def judge_feature(quads, course):
                    f"any edges within {float(distance.min(axis=1).max()) / edge:.2f}, back {back:.2f}")
 
 
-def judge_stroke(surface, quads, course, radius, clear=0):
+def judge_stroke(surface, quads, course, radius):
     """Degrees between the stroke and the nearer family of edges, the mean over its length of the quads below it, or
-    over the area within its radius; of places that are at least so many edge lengths clear of features."""
+    over the area within its radius."""
     normals = surface.normals[surface.nearest(course.places)[1]]
     if radius > 0:
         which, places, weights = quads.places_near(course, radius)
@@ -630,8 +630,6 @@ def judge_stroke(surface, quads, course, radius, clear=0):
     else:
         which, places = quads.below(course.places, normals), course.places
         near, weights = numpy.arange(len(places)), course.lengths
-    counts = surface.to_feature(places) >= clear * quads.length_at(course.places)
-    which, places, weights, near = which[counts], places[counts], weights[counts], near[counts]
     if not len(which):
         return Verdict(False, math.inf, "no quads there")
     along = course.directions[near]

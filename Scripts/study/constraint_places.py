@@ -11,9 +11,9 @@ judged in the quads alone (`constraint_judge.py`) against what was asked, and co
 MODEL is a file, or `cube` (12 triangles), `sphere` (an icosahedron, 20 triangles, all of whose edges are features) or
 `ball` (the same without features); without one it is ten parts, two scans, `Data/part.ply` and these. Of CLASS there
 are valence, move, connection, cycle, feature, stroke and size. --quads is 5,000, and 2,400 for those of 12 and 20.
---out takes a row for each constraint; --again tells the table of such a file. With --table it is what large triangles
-had wrong on a cube: a row each, with its notices. Each model runs in a process of its own, so that a crash is told and
-the others go on.
+--out takes a row for each constraint, with seconds of the processor and their share of the first run; --again tells the
+table of such a file. With --table it is what large triangles had wrong on a cube: a row each, with its notices. Each
+model runs in a process of its own, so that a crash is told and the others go on.
 
 A place is feasible unless the session does not give it and the judge sees why not: it lies on a feature or boundary,
 the way there crosses a feature, or what lies between features has room for less than nine quads; of a size, half of the
@@ -126,9 +126,9 @@ class Model:
         quads = quads or (2400 if name in MADE else 5000)
         self.random = numpy.random.default_rng(seed)
         self.session = quadrille.Session(mesh, quads=quads, threads=threads, **SETTINGS.get(name, {}))
-        start = time.perf_counter()
+        start = time.process_time()
         self.session.update()
-        self.first = time.perf_counter() - start
+        self.first = time.process_time() - start
         self.free = judge.Quads(*self.session.quads)
         edge = float(numpy.median(self.free.sizes))
         points, merged = numpy.unique(numpy.asarray(points, float) + 0.0, axis=0, return_inverse=True)
@@ -392,7 +392,7 @@ class Model:
         radius = float(self.random.choice((0, 1.5))) * self.surface.edge
         return self.ask_stroke(*drawn, radius)
 
-    def ask_stroke(self, points, course, room, radius, clear=0):
+    def ask_stroke(self, points, course, room, radius):
         points = numpy.array(points)
         turn = judge.judge_stroke(self.surface, self.free, course, radius).deviation
         off = self.surface.to_feature(course.places).min() / self.free.length_at(course.places)
@@ -400,7 +400,7 @@ class Model:
         return Ask("stroke" if room else "stroke near features",
                    f"radius {radius:.4g} {' '.join(map(text_of, points))}",
                    lambda s: s.add_guide(points, radius=radius),
-                   lambda quads: judge.judge_stroke(self.surface, quads, course, radius, clear))
+                   lambda quads: judge.judge_stroke(self.surface, quads, course, radius))
 
     def size(self):
         place = self.centre()
@@ -425,11 +425,11 @@ class Model:
         row.update(model=self.name, kind=ask.kind, number=number, asked=ask.text, excuse=ask.excuse, ok=False,
                    deviation=math.inf, met=False)
         self.session.update()
-        start = time.perf_counter()
+        start = time.process_time()
         try:
             which = ask.add(self.session)
             report = self.session.update()
-            row["seconds"] = time.perf_counter() - start
+            row["seconds"] = time.process_time() - start
             row["share"] = row["seconds"] / self.first
             word = next(w for w in report["constraints"] if w["id"] == which)
             row.update(word="met" if word["met"] else "not met", met=word["met"], told=word["deviation"],
@@ -522,8 +522,7 @@ def all_classes(arguments, send):
 
 
 def cube_table(arguments, send):
-    """The rows of the cube's table. A stroke of a large radius comes near the sides' borders: quads do not count there.
-    """
+    """The rows of the cube's table. A stroke of a large radius reaches the sides' borders, which leave it no room."""
     model = Model("cube", arguments["quads"], arguments["seed"], arguments["threads"])
     step = model.surface.edge
 
@@ -537,8 +536,8 @@ def cube_table(arguments, send):
                 lambda quads: judge.judge_valence(model.surface, quads, middle, 3))]
     for ends in (((0.2, 0.3, 1), (0.8, 0.6, 1)), ((0.2, 0.5, 1), (0.8, 0.5, 1)), ((0.2, 0.8, 1), (0.8, 0.2, 1))):
         asks.append(model.ask_feature(*line(*ends)))
-    for radius in (0, 0.1, 0.3):
-        asks.append(model.ask_stroke(*line((0.3, 0.2, 1), (0.7, 0.8, 1)), True, radius, STROKE_ROOM))
+    for radius, room in ((0, True), (0.1, True), (0.3, False)):
+        asks.append(model.ask_stroke(*line((0.3, 0.2, 1), (0.7, 0.8, 1)), room, radius))
     asks.append(model.ask_size(middle, 0.4, 0.2))
     ring = numpy.array([(0, 0, 0.37), (1, 0, 0.37), (1, 1, 0.37), (0, 1, 0.37), (0, 0, 0.37)], float)
     asks.append(dataclasses.replace(model.ask_cycle(judge.Course(ring, step)), excuse=""))

@@ -3,8 +3,10 @@
 /// Operations on irregular vertices, found again in the quads.
 #include "SessionHelpers.h"
 
+#include "Mesh/Requests.h"
 #include "PlyFile.h"
 #include "Session/IrregularMatch.h"
+#include "StaggeredTube.h"
 
 #include <memory>
 
@@ -282,6 +284,40 @@ TEST(IrregularEditsOnCurves, PlacesOnFeaturesAreRefused)
   EXPECT_THROW(session.add(IrregularEdit{
                  IrregularOperation::Move, { { 0, 0, 0.5 }, { 0.5, 0.5, 0 } }, {}, {}, {}, {} }),
     InvalidInput);
+}
+
+/// The quads there have irregular vertices that are those of no map.
+TEST(IrregularEditsOnFilledFaces, AreRefusedWithTheFace)
+{
+  const PatchedMesh tube = staggeredTube(0.02);
+  SurfaceInput input = toInput(tube.mesh);
+  input.patchIds = tube.patch;
+  input.patchesYield = true;
+  RemeshOptions options = sessionOptions(300);
+  options.coarseVertices = RemeshOptions().coarseVertices;
+  Session session(input, options);
+  ASSERT_TRUE(session.update().status.ok());
+  ASSERT_FALSE(session.result()->fixed.withoutMap.empty());
+  for (const IrregularVertex& vertex : session.result()->irregular)
+  {
+    EXPECT_GE(vertex.valence, kLeastValence);
+  }
+  const auto middleOf = [](const std::array<Vector3, 3>& triangle)
+  { return Vector3((triangle[0] + triangle[1] + triangle[2]) / 3); };
+  const std::vector<std::array<Vector3, 3>>& without = session.result()->fixed.withoutMap;
+  const Vector3 first = middleOf(without.front()), second = middleOf(without.back());
+  for (const IrregularOperation operation : { IrregularOperation::Move, IrregularOperation::Add })
+  {
+    try
+    {
+      session.add(IrregularEdit{ operation, { first, second }, {}, {}, {}, {} });
+      ADD_FAILURE() << "no map has an irregular vertex there";
+    }
+    catch (const InvalidInput& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("has no map"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(IrregularMatch, PairsAsManyAsCanBe)
