@@ -113,7 +113,7 @@ py::tuple placeOnCad(const ArrayOf<std::uint8_t>& shape, const ArrayOf<double>& 
   const std::vector<CadPlace> places = [&]
   {
     const py::gil_scoped_release others;
-    return placeQuads(cadCalls().shapeOfBytes(bytes), options, quads, placement);
+    return placeQuads(cadCalls().shapeOfBytes(bytes), options, quads, placement).places;
   }();
   std::vector<Vector3> placed, normals;
   std::vector<std::uint8_t> kinds;

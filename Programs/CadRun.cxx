@@ -108,6 +108,10 @@ vtkSmartPointer<vtkDataSet> CadRun::project(
   run.addNotice(std::to_string(filter->GetNodesOnGeometry()) + " nodes lie on the exact shape, " +
     (off == 0 ? "none" : std::to_string(off)) + (off == 1 ? " stays" : " stay") +
     " on the triangles (point array CadPlace)");
+  if (*filter->GetNoticesText() != '\0')
+  {
+    run.addNotice(filter->GetNoticesText());
+  }
   return vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0));
 }
 

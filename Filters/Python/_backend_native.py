@@ -412,7 +412,7 @@ def sizes_by_name(mesh, text):
         raise InvalidInput("take a Mesh of read_cad(), or one with the cell array PatchNames")
     prefixes = [f"{name}/" if name else "" for name in surfaces]
     made = _native.sizes_by_name([_named_dict(surface) for surface in surfaces.values()], prefixes, text)
-    sized = {name: _as_given(surface, _sized_mesh(surface, own)) for (name, surface), own in zip(surfaces.items(), made)}
+    sized = {name: _as_given(surfaces[name], _sized_mesh(surfaces[name], own)) for name, own in zip(surfaces, made)}
     return sized if isinstance(mesh, dict) else sized[""]
 
 
