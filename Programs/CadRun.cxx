@@ -9,6 +9,7 @@
 #ifdef QUADRILLE_WITH_CAD
 #include "Common/VtkErrors.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
 #include <vtkQuadCADProjection.h>
@@ -74,6 +75,8 @@ vtkSmartPointer<vtkPolyData> CadRun::read(RemeshRun& run, const std::string& pat
   reader->JoinPartsOn();
   const ErrorCollector errors(reader);
   const ErrorCollector pipelineErrors(reader->GetExecutive());
+  const vtkNew<vtkCallbackCommand> silence; // its warnings are the notices
+  reader->AddObserver(vtkCommand::WarningEvent, silence);
   reader->Update();
   if (*reader->GetOutcomeText() != '\0')
   {
