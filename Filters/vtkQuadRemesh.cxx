@@ -142,7 +142,7 @@ quadrille::RemeshOptions vtkQuadRemesh::MakeRunOptions(const quadrille::Block& b
   {
     options.curvatureGuides = this->LeastAnisotropy;
   }
-  options.closeHandles = this->CloseHandles;
+  options.smallestDetail = this->SmallestDetail;
   options.smallDetails = static_cast<quadrille::SmallDetails>(this->SmallDetails);
   options.removeSmallComponents = this->SmallComponents == REMOVE_SMALL_COMPONENTS;
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
@@ -358,7 +358,7 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "CurvatureGuides " << this->CurvatureGuides << '\n'
      << "LeastAnisotropy " << this->LeastAnisotropy << '\n'
      << "SmoothingSteps " << this->SmoothingSteps << '\n'
-     << "CloseHandles " << this->CloseHandles << '\n'
+     << "SmallestDetail " << this->SmallestDetail << '\n'
      << "SmallDetails " << this->SmallDetails << '\n'
      << "SmallComponents " << this->SmallComponents << '\n'
      << "FailedComponents " << this->FailedComponents << '\n'
@@ -403,7 +403,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LargestSize: " << this->LargestSize << "\n";
   os << indent << "CurvatureGuides: " << this->CurvatureGuides << "\n";
   os << indent << "LeastAnisotropy: " << this->LeastAnisotropy << "\n";
-  os << indent << "CloseHandles: " << this->CloseHandles << "\n";
+  os << indent << "SmallestDetail: " << this->SmallestDetail << "\n";
   os << indent << "SmallDetails: " << this->SmallDetails << "\n";
   os << indent << "FailedComponents: " << this->FailedComponents << "\n";
   os << indent << "ComponentsWithoutQuads: " << this->GetComponentsWithoutQuads() << "\n";

@@ -48,7 +48,7 @@
  *      surface, and none is turned over where points were put onto the surface.
  *    - "factor", sizes: by which the square root of a quad's area differs, over the median of all, from `Sizing` there;
  *      mean by area and 95th percentile. Met: a mean of at most 1.25.
- * 7. what of the surface is smaller than the quads, a vertex for each, those that SmallDetails, CloseHandles and
+ * 7. what of the surface is smaller than the quads, a vertex for each, those that SmallDetails, SmallestDetail and
  *    SmallComponents took out first. Points: `Kind` ("handle", "boundary loop", "component", "thin part"), `Size`
  *    (the length of the loop, of a component the square root of its area, over the target edge length and the
  *    sizes there), `Decision` ("resolved": quads are smaller there, "simplified", "kept"), `Result` (what became
@@ -239,11 +239,14 @@ public:
 
   ///@{
   /**
-   * Handles that are shorter round or through than this, in target edge lengths, are cut along their shortest loop and
-   * closed on both sides before the surface is mapped; 0 leaves all as they are. Quads need 3. Default: 0.
+   * What is smaller than this, in target edge lengths, is taken out before the first map: of the surface handles and
+   * boundary loops by their lengths (where SmallDetails is automatic) and, above 1, connected components by the square
+   * roots of their areas; of the features that nobody asked for those that quads cannot show, by the diagonal of the
+   * box round those that hang together, a quarter of the length of those that end on the surface, and a hundred times
+   * the width between two of them. A larger one never brings a detail back; 0: nothing. Default: 1.
    */
-  vtkSetClampMacro(CloseHandles, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(CloseHandles, double);
+  vtkSetClampMacro(SmallestDetail, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(SmallestDetail, double);
   ///@}
 
   /// The values of SmallDetails, see there.
@@ -258,14 +261,14 @@ public:
   /**
    * What becomes of handles and boundary loops that are shorter round than three target edge lengths, which is found
    * before the first map. SMALL_DETAILS_RESOLVE makes quads smaller there, whatever number of them it takes up to
-   * MaximumNumberOfQuads; SMALL_DETAILS_SIMPLIFY takes them out of the surface: handles are cut and closed (see
-   * CloseHandles), boundary loops filled; SMALL_DETAILS_KEEP leaves surface and sizes as they are, and the run fails
-   * where that is impossible. SMALL_DETAILS_AUTOMATIC simplifies those below one edge length and resolves the others,
-   * and where that would take more than 1.6 times the quads it simplifies the next longer ones, too; components with
-   * less area than a quad are left out where the smallest blocks for all small ones (see SmallComponents) would be more
-   * quads than are asked for. With METHOD_MIXED_INTEGER and QUADCOVER, INTEGERS_COARSEST and a Symmetry nothing is
-   * simplified by it, nor by SMALL_DETAILS_SIMPLIFY with a Symmetry. Output 7 has them all. Default:
-   * SMALL_DETAILS_AUTOMATIC.
+   * MaximumNumberOfQuads; SMALL_DETAILS_SIMPLIFY takes them out of the surface: handles are cut along their shortest
+   * loop and closed on both sides, boundary loops filled; SMALL_DETAILS_KEEP leaves surface and sizes as they are,
+   * and the run fails where that is impossible. SMALL_DETAILS_AUTOMATIC simplifies those below SmallestDetail and
+   * resolves the others, and where that would take more than 1.6 times the quads it simplifies the next longer ones,
+   * too; components with less area than a quad are left out where the smallest blocks for all small ones (see
+   * SmallComponents) would be more quads than are asked for. With METHOD_MIXED_INTEGER and QUADCOVER,
+   * INTEGERS_COARSEST and a Symmetry nothing is simplified by it, nor by SMALL_DETAILS_SIMPLIFY with a Symmetry.
+   * Output 7 has them all. Default: SMALL_DETAILS_AUTOMATIC.
    */
   vtkSetClampMacro(SmallDetails, int, SMALL_DETAILS_AUTOMATIC, SMALL_DETAILS_KEEP);
   vtkGetMacro(SmallDetails, int);
@@ -616,7 +619,7 @@ private:
   vtkIdType MaximumNumberOfQuads = 10000000;
   int SmoothingSteps = 5;
   double MemoryLimit = 0;
-  double CloseHandles = 0;
+  double SmallestDetail = 1;
   int SmallDetails = SMALL_DETAILS_AUTOMATIC;
   int SmallComponents = KEEP_SMALL_COMPONENTS;
   int FailedComponents = LEAVE_OUT_FAILED_COMPONENTS;

@@ -45,7 +45,7 @@ public:
    * one of "quads", "edge_length" and "relative_edge_length", and "feature_angle" (radians; null: none),
    * "feature_criterion" ("creases" or "angle"), "chord_error" (null: off), "angle_a_quad" (radians; null: off),
    * "gap_quads", "smallest_size", "largest_size", "curvature_guides" (null: off), "method", "integers",
-   * "coarse_vertices", "close_handles", "small_details", "small_components", "anisotropy_limit", "final_quality",
+   * "coarse_vertices", "smallest_detail", "small_details", "small_components", "anisotropy_limit", "final_quality",
    * "distortion_metric", "maximum_number_of_quads", "smoothing_steps", "warm_start", "threads", "memory_limit" (bytes).
    * What went before is let go.
    */

@@ -319,15 +319,17 @@ void addShape(CommandOptions& options, vtkQuadRemesh* filter)
     "vertices let it; quads "
     "then differ more in size (default 0: no limit)");
   options.addNumber(
-    "close-handles", "R", { 0, 1e6 }, [filter](double length) { filter->SetCloseHandles(length); },
-    "cut and close handles that are shorter round than R edge lengths of the quads, which need 3 "
-    "(default 0: none)");
+    "smallest-detail", "R", { 0, 1e6 },
+    [filter](double length) { filter->SetSmallestDetail(length); },
+    "what is smaller than R edge lengths of the quads goes before the first map: handles and holes "
+    "(with --small-details automatic), groups, ends and bands of sharp edges, above 1 connected "
+    "components; 0: nothing (default 1)");
   options.addChoice(
     "small-details", "WORD", { "automatic", "resolve", "simplify", "keep" },
     [filter](int decision) { filter->SetSmallDetails(decision); },
     "what becomes of handles and holes shorter round than 3 edge lengths of the quads: resolve, "
     "quads are smaller there, simplify, they are closed and filled, keep, as they are, or a "
-    "failure; automatic (default): below one edge length simplify, else resolve where that takes "
+    "failure; automatic (default): below --smallest-detail simplify, else resolve where that takes "
     "few quads");
   options.addChoice(
     "small-components", "WORD", { "keep", "remove" },

@@ -12,6 +12,12 @@
 namespace quadrille
 {
 
+/// Along the edges of the surface a loop may be so much longer than on the intermediate level, which lies inside of it.
+constexpr double kLongerAlongEdges = 2;
+/// What is left of a handle that was cut, and is longer round than so many edge lengths, is no stub but a limb that
+/// quads show: the jaw of a skull hangs on two joints, and both may be handles below the limit.
+constexpr double kGirthOfLimb = 4.5;
+
 /// For each entry of `places`, vertices near a handle, the shortest loop along edges that goes round or through a
 /// handle, that meets one of these vertices, and is shorter than `bound` (units of the mesh), is cut and closed (see
 /// cutAndClose); the genus is one lower for each. Left out are places without such a loop away from the boundary, and

@@ -25,11 +25,10 @@ namespace quadrille
 namespace
 {
 
+/// Over the smallest detail, as the others.
 constexpr double kShortestDangling = 4;
-/// Diagonal of the box round a group of chains that hang together, over s.
-constexpr double kSmallestGroup = 1;
-/// Mean width of a patch over s; there a quad is at least so much narrower than it is long.
-constexpr double kThinnestPatch = 0.03;
+/// Mean width of a patch; there a quad is at least so much narrower than it is long.
+constexpr double kThinnestPatch = 0.01;
 /// Chains shorter than this part of a patch's longest one are its ends and not its sides.
 constexpr double kShortestSide = 0.5;
 
@@ -175,8 +174,7 @@ std::vector<Index> groupsOf(const Mesh& mesh, const std::vector<Chain>& chains)
 }
 
 /// Chain by chain; returns whether anything went.
-bool dropChains(
-  Mesh& mesh, double edgeLength, const FeatureGraph& graph, FeatureFilterReport& report)
+bool dropChains(Mesh& mesh, double smallest, const FeatureGraph& graph, FeatureFilterReport& report)
 {
   const std::vector<Chain>& chains = graph.chains();
   const std::vector<Index> groupOf = groupsOf(mesh, chains);
@@ -192,8 +190,8 @@ bool dropChains(
     const ChainGroup& group = groups[groupOf[i]];
     const bool isDangling =
       chain.first != kInvalidIndex && (graph.endsThere(chain.first) || graph.endsThere(chain.last));
-    const bool isShort = isDangling && chain.sizedLength < kShortestDangling * edgeLength;
-    const bool isSmall = group.removable && group.extent() < kSmallestGroup * edgeLength;
+    const bool isShort = isDangling && chain.sizedLength < kShortestDangling * smallest;
+    const bool isSmall = group.removable && group.extent() < smallest;
     if (chain.removable && (isShort || isSmall))
     {
       unmarkFeatures(mesh, chain.halfEdges);
@@ -376,9 +374,9 @@ private:
 };
 
 bool dropAlongThinPatches(
-  Mesh& mesh, double edgeLength, const std::vector<Chain>& chains, FeatureFilterReport& report)
+  Mesh& mesh, double smallest, const std::vector<Chain>& chains, FeatureFilterReport& report)
 {
-  const ThinPatches patches(mesh, kThinnestPatch * edgeLength, chains);
+  const ThinPatches patches(mesh, kThinnestPatch * smallest, chains);
   const std::vector<Index> drop = patches.chainsToDrop();
   for (const Index c : drop)
   {
@@ -391,7 +389,7 @@ bool dropAlongThinPatches(
 /// One pass; returns whether anything went. Most scans have nothing to drop, and patches take memory for each
 /// half-edge. edges: constrainedEdges of the mesh.
 bool removeOnce(
-  Mesh& mesh, double edgeLength, const std::vector<Index>& edges, FeatureFilterReport& report)
+  Mesh& mesh, double smallest, const std::vector<Index>& edges, FeatureFilterReport& report)
 {
   if (std::none_of(edges.begin(), edges.end(), [&](Index h) { return isDetectedFeature(mesh, h); }))
   {
@@ -402,22 +400,22 @@ bool removeOnce(
   const bool any =
     std::any_of(chains.begin(), chains.end(), [](const Chain& chain) { return chain.removable; });
   return any &&
-    (dropChains(mesh, edgeLength, graph, report) ||
-      dropAlongThinPatches(mesh, edgeLength, chains, report));
+    (dropChains(mesh, smallest, graph, report) ||
+      dropAlongThinPatches(mesh, smallest, chains, report));
 }
 
 } // namespace
 
-FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int threads)
+FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double smallest, int threads)
 {
-  if (!(edgeLength > 0))
+  if (!(smallest >= 0))
   {
-    throw InvalidInput("the edge length for filtering features must be positive");
+    throw InvalidInput("the smallest detail of features must not be negative");
   }
   FeatureFilterReport report;
   std::vector<Index> edges = constrainedEdges(mesh, threads);
   const auto isFree = [&](Index h) { return !mesh.isConstrained(h); };
-  while (removeOnce(mesh, edgeLength, edges, report))
+  while (removeOnce(mesh, smallest, edges, report))
   {
     edges.erase(std::remove_if(edges.begin(), edges.end(), isFree), edges.end());
   }

@@ -18,13 +18,13 @@ struct FeatureFilterReport
   std::size_t keptEdges = 0;
 };
 
-/// Unmarks features that nobody asked for (without kRequestedFeature) and that are details below the edge length s:
-/// chains shorter than 4 s that end in the surface; whole groups of chains that hang together, loops among them, in a
-/// box with a diagonal below s; and the bluntest side of each patch between features that is on average (2 area /
-/// perimeter) narrower than 0.03 s. Chains run between vertices where other than two constrained edges meet. Features
-/// that the user gave stay. Repeated until nothing changes.
-/// Throws InvalidInput when edgeLength is not positive.
-FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int threads = 1);
+/// Unmarks features that nobody asked for (without kRequestedFeature) and that are details below the length d: chains
+/// shorter than 4 d that end in the surface; whole groups of chains that hang together, loops among them, in a box with
+/// a diagonal below d; and the bluntest side of each patch between features that is on average (2 area / perimeter)
+/// narrower than 0.01 d. Chains run between vertices where other than two constrained edges meet. Features that the
+/// user gave stay. Repeated until nothing changes.
+/// smallest: d; 0: all stay. Throws InvalidInput where it is negative.
+FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double smallest, int threads = 1);
 
 /// Whether there is a feature that nobody asked for; most surfaces have none.
 bool hasDetectedFeature(const Mesh& mesh);

@@ -181,7 +181,7 @@ const char* whyNotFollowed(FeatureLoss reason)
     case FeatureLoss::MidLine:
       return "not followed: it lies in the mirror plane, which quads straddle";
     default:
-      return "not followed: too short, too tangled or too near another one";
+      return "not followed: below the smallest detail, as an end, a group or a side of a band";
   }
 }
 

@@ -15,7 +15,7 @@ namespace quadrille
 /// Why a curve of sharp edges is no feature of the quads.
 enum class FeatureLoss : std::uint8_t
 {
-  Unresolved,  ///< too short, too tangled, or beside another one: see removeUnresolvedFeatures
+  Unresolved,  ///< below the smallest detail: see removeUnresolvedFeatures
   NoCrease,    ///< noise that lies in a row: see removeFalseCreases
   SharpCorner, ///< beside another one, which it leaves at too small an angle: see trimSharpCorners
   FailedMap,   ///< near the place where a map, or its quads, failed

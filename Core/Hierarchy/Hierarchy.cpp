@@ -19,6 +19,7 @@
 #include "Hierarchy/VertexScales.h"
 #include "Mesh/Sizing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -242,6 +243,14 @@ const Hierarchy& Redecimation::hierarchy() const
 Hierarchy Redecimation::take()
 {
   return std::move(implementation_->hierarchy());
+}
+
+std::vector<Index> onFinest(const std::vector<Index>& vertices, const Level& level)
+{
+  std::vector<Index> finest(vertices.size());
+  std::transform(
+    vertices.begin(), vertices.end(), finest.begin(), [&](Index v) { return level.fineVertex[v]; });
+  return finest;
 }
 
 Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)

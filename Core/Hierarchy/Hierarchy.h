@@ -77,6 +77,8 @@ struct Level
   std::vector<Index> fineFace;   ///< #F
   std::vector<Guide> guides;     ///< #F, or empty where no face has one
 };
+/// Vertices of the level on the finest mesh.
+std::vector<Index> onFinest(const std::vector<Index>& vertices, const Level& level);
 
 /// How much of phase 2's evaluations of removals the cache of Section 5.3 saved.
 struct CacheReport

@@ -6,7 +6,6 @@
 #include "Details/CloseHandles.h"
 #include "Details/Handles.h"
 #include "Details/NearLoops.h"
-#include "Pipeline/SmallHandles.h"
 
 #include <algorithm>
 #include <utility>

@@ -43,8 +43,9 @@ PieceOptions pieceOptionsOf(const RemeshOptions& options, double area, double bo
   // Where sizes vary, a handle is short against the size there, which the whole surface knows.
   if (maySimplify(options) && !options.sizes.any())
   {
-    piece.closedLoop =
-      s * (options.smallDetails == SmallDetails::Simplify ? kQuadsOfLoop : kSimplifiedLoop);
+    piece.closedLoop = s *
+      std::max(options.smallestDetail,
+        options.smallDetails == SmallDetails::Simplify ? kQuadsOfLoop : 0.0);
   }
   return piece;
 }

@@ -10,7 +10,6 @@
 #include "Pipeline/GuidedMap.h"
 #include "Pipeline/Notices.h"
 #include "Pipeline/RequestKeys.h"
-#include "Pipeline/SmallHandles.h"
 #include "Requests/Guides.h"
 #include "Requests/HeldVertices.h"
 #include "Requests/StraightRequests.h"

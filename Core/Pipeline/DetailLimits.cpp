@@ -5,9 +5,9 @@
 #include "Base/TryCount.h"
 #include "Details/SmallComponents.h"
 #include "Pipeline/FirstPlan.h"
-#include "Pipeline/SmallHandles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <utility>
@@ -47,10 +47,10 @@ std::vector<HandleLoop> loopsAbove(double length, std::vector<HandleLoop>::const
 
 } // namespace
 
-DetailLimits detailLimits(double edgeLength, bool takesAll, bool isRest)
+DetailLimits detailLimits(double edgeLength, double smallest, bool takesAll, bool isRest)
 {
-  const double limit = edgeLength * (takesAll ? kQuadsOfLoop : kSimplifiedLoop);
-  return { limit, isRest ? kLoopOfRest * edgeLength : limit };
+  const double limit = edgeLength * std::max(smallest, takesAll ? kQuadsOfLoop : 0.0);
+  return { limit, isRest ? std::max(limit, kLoopOfRest * edgeLength) : limit };
 }
 
 bool raise(DetailLimits& limits, const RunContext& run)
@@ -70,7 +70,9 @@ bool raise(DetailLimits& limits, const RunContext& run)
   while (
     limit < most && !resolvesLoops(run, loopsAbove(limit, found.loops.begin(), found.loops.end())))
   {
-    limit = std::min(most, limit + kLimitStep * run.edgeLength);
+    // Multiples of the step, so that a larger limit to begin with never ends lower.
+    const double step = kLimitStep * run.edgeLength;
+    limit = std::min(most, step * (std::floor(limit / step) + 1));
     ++times;
   }
   limits.handles = std::max(limits.handles, limit);

@@ -22,9 +22,9 @@ struct DetailLimits
   double boundaryLoops = 0;
   double handles = 0;
 };
-/// takesAll: what is shorter than kQuadsOfLoop edge lengths, whatever smaller quads could do. isRest: nothing else has
-/// led to quads.
-DetailLimits detailLimits(double edgeLength, bool takesAll, bool isRest);
+/// smallest: RemeshOptions::smallestDetail. takesAll: what is shorter than kQuadsOfLoop edge lengths, whatever smaller
+/// quads could do. isRest: nothing else has led to quads.
+DetailLimits detailLimits(double edgeLength, double smallest, bool takesAll, bool isRest);
 
 /// The limits grow until smaller quads do for the loops that are at least as long. A crowd of handles is resolved as a
 /// whole or cut. False where they stay.

@@ -24,8 +24,9 @@ std::size_t bytesOfLoops(const ShortLoops& found)
 
 void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::string>& reused)
 {
-  const ResultKey key =
-    KeyMaker(run.surface.key).add(run.edgeLength, run.levels.hasFollowed()).key();
+  const ResultKey key = KeyMaker(run.surface.key)
+                          .add(run.edgeLength, run.options.smallestDetail, run.levels.hasFollowed())
+                          .key();
   bool isKnown = true;
   run.shortLoops = *findOrMake<ShortLoops>(
     run.store, key,
@@ -35,8 +36,8 @@ void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::stri
       const Level& level = run.levels.makeIntermediate(run.surface, levelOptions(run, {}));
       stages.add(run.levels.stages());
       const double start = secondsNow();
-      ShortLoops made =
-        measureSmallParts(level, run.surface->mesh, run.edgeLength, run.options.threads);
+      ShortLoops made = measureSmallParts(
+        level, run.surface->mesh, run.edgeLength, run.options.smallestDetail, run.options.threads);
       stages.add("handles", secondsNow() - start, level.mesh.faceCount(), made.parts.handles);
       return made;
     },

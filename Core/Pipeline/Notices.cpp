@@ -42,9 +42,9 @@ std::string featureNotice(const FeatureFilterReport& report)
     return "";
   }
   return std::to_string(report.removedEdges) +
-    " sharp edges are too short or too tangled for this edge length and were not used as "
-    "features (" +
-    std::to_string(report.keptEdges) + " feature edges kept)";
+    " sharp edges are details below the smallest one and no features (" +
+    std::to_string(report.keptEdges) +
+    " are kept): ask for more quads, or lower Smallest Detail (--smallest-detail)";
 }
 
 std::string refinementNotice(double factor)

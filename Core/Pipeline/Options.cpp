@@ -48,9 +48,9 @@ void checkOptions(const RemeshOptions& options)
   {
     throw InvalidInput("an anisotropy limit needs the scale aware or the seamless method");
   }
-  if (!(options.closeHandles >= 0 && std::isfinite(options.closeHandles)))
+  if (!(options.smallestDetail >= 0 && std::isfinite(options.smallestDetail)))
   {
-    throw InvalidInput("the length of handles to close must be 0 or a positive number");
+    throw InvalidInput("the smallest detail must be 0 or a positive number of edge lengths");
   }
   if (options.coarseVertices != 0 && options.coarseVertices < 4)
   {

@@ -25,13 +25,12 @@ enum class FeatureCriterion
   Angle    ///< all that stand out from their surroundings and that the edge length resolves
 };
 
-/// What becomes of what is smaller than the quads: handles and boundary loops that are shorter round than kQuadsOfLoop
-/// edge lengths.
+/// What becomes of handles and boundary loops that are shorter round than kQuadsOfLoop edge lengths.
 enum class SmallDetails
 {
-  Automatic, ///< simplified below kSimplifiedLoop edge lengths, or where all of them would take too many quads
+  Automatic, ///< simplified below RemeshOptions::smallestDetail, or where all of them would take too many quads
   Resolve,  ///< quads are smaller there
-  Simplify, ///< handles are cut and closed, boundary loops filled
+  Simplify, ///< all of them: handles are cut and closed, boundary loops filled
   Keep ///< the surface and the size of the quads stay as they are, and a run fails where that is impossible
 };
 
@@ -55,11 +54,13 @@ struct RemeshOptions
   Index coarseVertices = 1000; ///< budget of the coarse level; 0: as many as its curvature needs
   DecimationCost decimationCost =
     DecimationCost::Gaussian; ///< of phase 2; others are there to compare with
-  /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are
-  /// mapped, see closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.
-  double closeHandles = 0;
-  /// Beside closeHandles, which goes before it. The methods that are not scale aware, and the coarsest integers, take
-  /// Automatic as Resolve.
+  /// What is smaller than so many target edge lengths is taken out of the surface, and of the features that quads
+  /// follow, before the first map; >= 0. A larger one never brings a detail back. Handles and boundary loops are
+  /// measured by their lengths; groups of features by the diagonal of their box, dangling ones by a quarter of their
+  /// length, bands between two by a hundred times their width. Above 1 connected components, too, by the square root
+  /// of their area; up to there they are blocks, see removeSmallComponents.
+  double smallestDetail = 1;
+  /// The methods that are not scale aware, and the coarsest integers, take Automatic as Resolve.
   SmallDetails smallDetails = SmallDetails::Automatic;
   /// Connected components with less area than the smallest block of quads has (six for a closed one without handles,
   /// see quadsOfBlock) go, unless all are such. Off: each becomes about that many quads. Both are told.

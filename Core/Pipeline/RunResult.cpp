@@ -148,7 +148,6 @@ void takeSized(const SizedSurface& sized, RemeshResult& result)
   result.status = sized.status;
   result.targetEdgeLength = sized.edgeLength;
   result.targetQuads = sized.targetQuads;
-  result.decimations = sized.decimations;
   result.details = sized.details;
   result.reused = sized.reused;
   result.givenUpFeatures = sized.givenUpFeatures;

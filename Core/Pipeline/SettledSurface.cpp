@@ -11,7 +11,6 @@
 #include "Pipeline/DetailSteps.h"
 #include "Pipeline/FirstLevels.h"
 #include "Pipeline/FirstPlan.h"
-#include "Pipeline/SmallHandles.h"
 #include "Prepare/Refine.h"
 
 #include <algorithm>
@@ -239,7 +238,7 @@ std::size_t thin(Settling& work, double limit, bool isBegun)
   RunContext& run = *work.made.run;
   const Level& level = run.levels.makeIntermediate(run.surface, levelOptions(run, {}));
   std::vector<ThinPart> parts =
-    findThinParts(level.mesh, { limit, kSimplifiedLoop * edgeLength, mostArea });
+    findThinParts(level.mesh, { limit, work.options.smallestDetail * edgeLength, mostArea });
   const bool areTooMany =
     3 * static_cast<double>(parts.size()) > kMostOfBudget * coarseBudget(work.options);
   if (parts.empty() || (!isBegun && !areTooMany))
@@ -365,10 +364,14 @@ Status simplify(Settling& work)
 {
   SizedSurface& sized = work.sized;
   const AskedPlaces asked = askedPlaces(*sized.surface);
-  const ResultKey key = KeyMaker(sized.key).add(sized.edgeLength, work.isRest, work.takesAll).key();
+  const ResultKey key =
+    KeyMaker(sized.key)
+      .add(sized.edgeLength, work.options.smallestDetail, work.isRest, work.takesAll)
+      .key();
   if (!recall(key, asked, work))
   {
-    DetailLimits limits = detailLimits(sized.edgeLength, work.takesAll, work.isRest);
+    DetailLimits limits =
+      detailLimits(sized.edgeLength, work.options.smallestDetail, work.takesAll, work.isRest);
     fill(work, limits.boundaryLoops);
     Status status = judgeHandles(sized, false, work.options.threads, work.store);
     if (!status.ok())

@@ -15,7 +15,6 @@
 #include "Pipeline/Notices.h"
 #include "Pipeline/PlannedSurface.h"
 #include "Pipeline/RequestKeys.h"
-#include "Pipeline/SmallHandles.h"
 #include "Prepare/Frame.h"
 #include "Prepare/Prepare.h"
 #include "Prepare/Refine.h"
@@ -45,7 +44,6 @@ struct StoredPrepared
 struct StoredSized : SizeReport
 {
   PreparedSurface surface;
-  bool hasRequests = false; ///< moved by what closed handles
 };
 
 ResultKey preparedKey(ResultKey inputHash, const RemeshOptions& options)
@@ -53,14 +51,14 @@ ResultKey preparedKey(ResultKey inputHash, const RemeshOptions& options)
   return KeyMaker(inputHash).add(options.featureAngle.value_or(0)).key();
 }
 
-/// surface: prepared. requests: those of the input where closed handles move their corners.
-ResultKey sizedKey(ResultKey prepared, ResultKey requests, const PreparedSurface& surface,
-  const RemeshOptions& options, const SizedSurface& sized)
+/// surface: prepared.
+ResultKey sizedKey(ResultKey prepared, const PreparedSurface& surface, const RemeshOptions& options,
+  const SizedSurface& sized)
 {
   // Of details only components are taken out before the surface is sized.
   const bool mayDrop = maySimplify(options) && surface.components > 1;
   KeyMaker key(prepared);
-  key.add(sized.edgeLength, judgesCreases(options), options.closeHandles, requests,
+  key.add(sized.edgeLength, judgesCreases(options), options.smallestDetail,
     options.removeSmallComponents, mayDrop, mayDrop ? sized.targetQuads : 0);
   if (options.sizes.any())
   {
@@ -123,10 +121,7 @@ bool recallSized(const SurfaceInput& input, const RemeshOptions& options, Result
     return false;
   }
   surface = found->surface;
-  if (!found->hasRequests)
-  {
-    collectRequests(input, surface, options.threads);
-  }
+  collectRequests(input, surface, options.threads);
   static_cast<SizeReport&>(sized) = *found;
   sized.targetQuads = options.quads.value_or(found->targetQuads);
   sized.reused.emplace_back("refine");
@@ -136,17 +131,12 @@ bool recallSized(const SurfaceInput& input, const RemeshOptions& options, Result
 
 /// Triangles that refinement left as they were are shared, and count once.
 void keepSized(std::shared_ptr<StoredPrepared> prepared, ResultKey preparedAt,
-  const PreparedSurface& surface, const RemeshOptions& options, ResultStore& store,
-  const SizedSurface& sized)
+  const PreparedSurface& surface, ResultStore& store, const SizedSurface& sized)
 {
   auto stored = std::make_shared<StoredSized>();
   static_cast<SizeReport&>(*stored) = sized;
   stored->surface = surface;
-  stored->hasRequests = options.closeHandles > 0;
-  if (!stored->hasRequests)
-  {
-    stored->surface.setRequests({});
-  }
+  stored->surface.setRequests({});
   const std::size_t bytes =
     bytesOf(stored->surface, &prepared->surface) + bytesOf(stored->givenUpFeatures);
   const std::size_t bytesPrepared = bytesOf(prepared->surface);
@@ -182,7 +172,8 @@ void filterFeatures(PreparedSurface& surface, const RemeshOptions& options, Size
 {
   Mesh& mesh = surface.mesh;
   std::vector<std::uint8_t> before = mesh.flags;
-  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, sized.edgeLength, options.threads);
+  FeatureFilterReport filtered =
+    removeUnresolvedFeatures(mesh, options.smallestDetail * sized.edgeLength, options.threads);
   noteGivenUp(FeatureLoss::Unresolved, filtered.removedEdges, mesh, before, sized);
   CreaseReport creases;
   if (judgesCreases(options) && !surface.facets.isDesigned)
@@ -218,21 +209,6 @@ void refine(PreparedSurface& surface, const RemeshOptions& options, SizedSurface
   tell({ surface.notice }, sized.notices);
 }
 
-void closeAsAsked(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
-{
-  if (!(options.closeHandles > 0))
-  {
-    return;
-  }
-  const double start = secondsNow();
-  const std::size_t before = surface.mesh.faceCount();
-  const ClosedHandles closed = closeSmallHandles(surface, sized.edgeLength, options);
-  tell({ closed.notice }, sized.notices);
-  sized.details.insert(sized.details.end(), closed.details.begin(), closed.details.end());
-  sized.decimations += closed.decimations;
-  sized.stages.add("close", secondsNow() - start, before, surface.mesh.faceCount());
-}
-
 /// From the prepared surface with its requests to the sized one.
 void sizePreparedSurface(
   PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
@@ -248,7 +224,6 @@ void sizePreparedSurface(
   if (!refuseTooMany(options, sized))
   {
     refine(surface, options, sized);
-    closeAsAsked(surface, options, sized);
   }
 }
 
@@ -471,7 +446,6 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
 {
   SizedSurface sized;
   ResultStore* store = known.store;
-  const ResultKey requests = options.closeHandles > 0 ? requestsKey(input) : 0;
   PreparedOfRun prepared = findOrPrepare(input, options, known, sized);
   if (!input.drawn.sizes.empty())
   {
@@ -479,7 +453,7 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
   }
   PreparedSurface& surface = prepared.surface;
   setTarget(prepared.sizedArea, surface.boundingBoxDiagonal, options, sized);
-  sized.key = sizedKey(prepared.key, requests, surface, options, sized);
+  sized.key = sizedKey(prepared.key, surface, options, sized);
   if (!prepared.stored || !recallSized(input, options, *store, surface, sized))
   {
     std::shared_ptr<StoredPrepared> stored = prepared.stored;
@@ -494,7 +468,7 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
     sizePreparedSurface(surface, options, sized);
     if (sized.status.ok() && store != nullptr)
     {
-      keepSized(std::move(stored), prepared.key, surface, options, *store, sized);
+      keepSized(std::move(stored), prepared.key, surface, *store, sized);
     }
   }
   addDrawn(input, options, surface, sized);
@@ -523,7 +497,7 @@ SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlac
   const RemeshOptions& options, SizedSurface sized)
 {
   setTarget(areaOverSizes(surface), surface.boundingBoxDiagonal, options, sized);
-  sized.key = sizedKey(preparedKey(0, options), 0, surface, options, sized);
+  sized.key = sizedKey(preparedKey(0, options), surface, options, sized);
   sizePreparedSurface(surface, options, sized);
   if (sized.status.ok())
   {

@@ -28,8 +28,7 @@ struct SizeReport
   std::size_t targetQuads = 0; ///< predicted where an edge length was asked for
   std::vector<std::string> notices;
   std::vector<GivenUpCurve> givenUpFeatures; ///< lengths and places in the frame
-  /// Components that were left out, and handles that closeHandles has closed.
-  std::vector<SmallDetail> details;
+  std::vector<SmallDetail> details;          ///< components that were left out
 };
 
 struct SizedSurface : SizeReport
@@ -46,7 +45,6 @@ struct SizedSurface : SizeReport
   std::string blocksNotice;
   std::vector<std::string> reused; ///< names of stages whose result the store had
   StageRecords stages;
-  int decimations = 0; ///< runs of phase 1 that closing handles took
 };
 
 /// Where earlier runs have left what they made of an input.

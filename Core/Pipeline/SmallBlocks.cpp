@@ -5,6 +5,7 @@
 #include "Pipeline/PlannedSurface.h"
 #include "Pipeline/SizedSurface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iomanip>
@@ -85,13 +86,16 @@ std::string dropSmallComponents(
   }
   SmallComponents small =
     findSmallComponents(surface, sized.edgeLength, kAnyNumber, options.threads);
+  const double smallest = options.smallestDetail;
+  const bool areTooMany = small.quads > static_cast<double>(sized.targetQuads);
   if (!isAsked)
   {
-    if (small.quads <= static_cast<double>(sized.targetQuads))
+    if (!areTooMany && smallest <= 1)
     {
       return {};
     }
-    small = findSmallComponents(surface, sized.edgeLength, kQuadsOfSpeck, options.threads);
+    small = findSmallComponents(
+      surface, sized.edgeLength, std::max(kQuadsOfSpeck, smallest * smallest), options.threads);
   }
   const std::size_t removed = removeSmallComponents(surface, small);
   if (removed == 0)
@@ -102,7 +106,9 @@ std::string dropSmallComponents(
     small, sized.edgeLength, [](const SmallComponent&) { return "left out"; }, sized.details);
   return isAsked
     ? smallComponentsText(small, removed, sized.edgeLength) + ": removed, as was asked for"
-    : specksText(small, sized.edgeLength);
+    : smallest > 1 ? smallComponentsText(small, removed, sized.edgeLength) +
+      ": removed, as below the smallest detail"
+                   : specksText(small, sized.edgeLength);
 }
 
 /// What of the surface is left after the removal, or becomes blocks, sets the number of quads where an edge length is

@@ -74,10 +74,11 @@ std::string detailsNotice(const std::vector<SmallDetail>& details)
   {
     return {};
   }
-  text << ", as quads of this size cannot show them, the longest loop of " << std::setprecision(2)
-       << longest->size << std::setprecision(6) << " edge lengths near "
-       << placeText(longest->place)
-       << " (Small Details: Resolve or Keep, --small-details resolve|keep, leaves them)";
+  text
+    << ", as quads of this size cannot show them, the longest loop of " << std::setprecision(2)
+    << longest->size << std::setprecision(6) << " edge lengths near " << placeText(longest->place)
+    << " (Smallest Detail, --smallest-detail, sets the limit; Small Details Resolve or Keep leaves "
+       "them)";
   return text.str();
 }
 

@@ -4,7 +4,6 @@
 
 #include "Base/PlaceText.h"
 #include "Details/NearLoops.h"
-#include "Pipeline/SmallHandles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +20,10 @@ constexpr double kMostTightened = 2;
 
 /// Decimation moves a loop off the shortest way round a handle, by chance: at the length that decides about a cut the
 /// finest mesh has the last word, where it says that the loop is short. loops: of the level, shortest first, before and
-/// afterwards.
-void tighten(std::vector<HandleLoop>& loops, const Level& level, const Mesh& finest,
-  double edgeLength, int threads)
+/// afterwards. limit: that length.
+void tighten(
+  std::vector<HandleLoop>& loops, const Level& level, const Mesh& finest, double limit, int threads)
 {
-  const double limit = kSimplifiedLoop * edgeLength;
   const auto isBelow = [](const HandleLoop& loop, double length) { return loop.length < length; };
   const auto begin = std::lower_bound(loops.begin(), loops.end(), limit, isBelow);
   const auto end = std::lower_bound(begin, loops.end(), kMostTightened * limit, isBelow);
@@ -79,12 +77,12 @@ void appendLoop(std::ostringstream& text, double length, const Vector3& place, c
 } // namespace
 
 ShortLoops measureSmallParts(
-  const Level& intermediate, const Mesh& finest, double edgeLength, int threads)
+  const Level& intermediate, const Mesh& finest, double edgeLength, double smallest, int threads)
 {
   const double limit = kQuadsOfLoop * edgeLength;
   const Mesh& mesh = intermediate.mesh;
   HandleReport found = findHandles(mesh, limit);
-  tighten(found.loops, intermediate, finest, edgeLength, threads);
+  tighten(found.loops, intermediate, finest, smallest * edgeLength, threads);
   if (!found.loops.empty())
   {
     found.shortest = found.loops.front();

@@ -15,10 +15,6 @@ namespace quadrille
 /// So many quads a loop needs, at least, round a handle, through it or round a hole: shorter ones are not resolved.
 constexpr double kQuadsOfLoop = 3;
 
-/// SmallDetails::Automatic: what is shorter round than so many edge lengths, below a third of a quad wide, is
-/// simplified.
-constexpr double kSimplifiedLoop = 1;
-
 /// What quads of the target edge length s cannot resolve. Measured on the intermediate level, whose edges are about s/2
 /// to s long: loops about as long as 3 s come out a tenth too short, those of one or two s up to 40 %.
 struct SmallParts
@@ -41,10 +37,10 @@ struct ShortLoops
   std::vector<HandleLoop> loops; ///< round handles and holes, shorter than kQuadsOfLoop s
 };
 
-/// edgeLength: s, in units of the meshes. Loops that might be short enough to be cut are measured on the finest mesh,
-/// too. threads: 0: all.
+/// edgeLength: s, in units of the meshes. smallest: RemeshOptions::smallestDetail; loops that might be short enough to
+/// be cut are measured on the finest mesh, too. threads: 0: all.
 ShortLoops measureSmallParts(
-  const Level& intermediate, const Mesh& finest, double edgeLength, int threads);
+  const Level& intermediate, const Mesh& finest, double edgeLength, double smallest, int threads);
 
 /// The size of quads as messages tell it.
 struct QuadSize

@@ -28,7 +28,7 @@ void settingsFields(Fields& fields, Options& options)
 {
   // By name, so that an option that is new has to be put on one side or the other here.
   auto& [quads, edgeLength, relativeEdgeLength, featureAngle, featureCriterion, shapeSizes,
-    curvatureGuides, method, coarsestIntegers, coarseVertices, decimationCost, closeHandles,
+    curvatureGuides, method, coarsestIntegers, coarseVertices, decimationCost, smallestDetail,
     smallDetails, removeSmallComponents, leavesOutFailed, anisotropyLimit, finalQuality,
     distortionMetric, maximumNumberOfQuads, preview, smoothingSteps, memoryLimit, keepsPositions,
     mergeCharts, knownMap, threads, warmStart, progress] = options;
@@ -47,7 +47,7 @@ void settingsFields(Fields& fields, Options& options)
   fields.mayName("method", method, kMethods);
   fields.mayName("integers", coarsestIntegers, kIntegers);
   fields.may("coarse_vertices", coarseVertices);
-  fields.may("close_handles", closeHandles);
+  fields.may("smallest_detail", smallestDetail);
   fields.mayName("small_details", smallDetails, kSmallDetails);
   fields.mayName("small_components", removeSmallComponents, kSmallComponents);
   fields.may("anisotropy_limit", anisotropyLimit);

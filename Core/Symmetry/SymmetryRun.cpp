@@ -367,7 +367,8 @@ void SymmetryRun::withFeatures(const std::function<void(Mesh&, double edgeLength
   Mesh mesh = whole_->surface.mesh;
   const double sizedArea = mesh.sizing.empty() ? surface().area : quadrille::sizedArea(mesh);
   const double edgeLength = targetEdgeLength(options_, sizedArea, made_.diagonal);
-  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, edgeLength, options_.threads);
+  FeatureFilterReport filtered =
+    removeUnresolvedFeatures(mesh, options_.smallestDetail * edgeLength, options_.threads);
   if (judgesCreases(options_) && !whole_->surface.facets.isDesigned)
   {
     removeFalseCreases(mesh, edgeLength, options_.threads, filtered);

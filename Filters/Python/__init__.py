@@ -107,7 +107,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            patch_ids=None, curves=None, strokes=None, connections=None, cycles=None,
            patch_array="PatchId", coarse_vertices=1000,
            threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
-           memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_details="automatic",
+           memory_limit=0.0, time_limit=0.0, smallest_detail=1.0, small_details="automatic",
            small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
            cell_data="centre", preview=False, symmetry=None, rotation=None,
@@ -147,10 +147,12 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     smoothing_steps: sweeps of smoothing on the surface, which never lower the worst scaled Jacobian; 0: none.
     memory_limit: refuse to start where more is needed by the estimate; millions of bytes; 0 means what is free.
     time_limit: seconds; 0 means none.
-    close_handles: handles shorter round or through than so many target edge lengths are cut and closed; 0: none.
+    smallest_detail: what is smaller than so many target edge lengths is taken out before the first map: handles and
+        holes (with small_details "automatic"), groups, ends and bands of detected features, above 1 connected
+        components; 0: nothing.
     small_details: what becomes of handles and holes that are shorter round than three target edge lengths: "resolve",
         quads are smaller there; "simplify", handles are closed and holes filled; "keep", as they are, or a RemeshError
-        where that is impossible; "automatic", below one edge length simplified, else resolved where that takes at most
+        where that is impossible; "automatic", below smallest_detail simplified, else resolved where that takes at most
         1.6 times the quads.
     small_components: connected components with less area than the smallest block of quads has: "keep", as about that
         many quads, or "remove".
@@ -208,7 +210,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         quads=quads, edge_length=edge_length, relative_edge_length=relative_edge_length, feature_angle=feature_angle,
         feature_criterion=feature_criterion, patch_array=patch_array, coarse_vertices=coarse_vertices, threads=threads,
         maximum_number_of_quads=maximum_number_of_quads, smoothing_steps=smoothing_steps, memory_limit=memory_limit,
-        time_limit=time_limit, close_handles=close_handles, small_details=small_details,
+        time_limit=time_limit, smallest_detail=smallest_detail, small_details=small_details,
         small_components=small_components, method=method, final_quality=final_quality, integers=integers,
         anisotropy_limit=anisotropy_limit, distortion_metric=distortion_metric, cell_data=cell_data, preview=preview,
         symmetry=symmetry, rotation=rotation, plane_curve=plane_curve, chord_error=chord_error,

@@ -80,7 +80,7 @@ def remesh(
     smoothing_steps: int = ...,
     memory_limit: float = ...,
     time_limit: float = ...,
-    close_handles: float = ...,
+    smallest_detail: float = ...,
     small_details: str = ...,
     small_components: str = ...,
     method: str = ...,

@@ -145,7 +145,7 @@ def _polygons_of_vtk(data):
 #: Options that the settings of Core have under the same name and in the same unit.
 _SETTINGS = ("quads", "edge_length", "relative_edge_length", "feature_criterion", "chord_error", "gap_quads",
              "smallest_size", "largest_size", "method", "integers", "small_details", "small_components",
-             "final_quality", "coarse_vertices", "close_handles", "anisotropy_limit", "distortion_metric",
+             "final_quality", "coarse_vertices", "smallest_detail", "anisotropy_limit", "distortion_metric",
              "maximum_number_of_quads", "smoothing_steps", "threads")
 
 

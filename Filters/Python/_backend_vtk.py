@@ -114,7 +114,7 @@ def arrays_of(quads):
 _PROPERTIES = {
     "coarse_vertices": "CoarseVertices", "threads": "NumberOfThreads",
     "maximum_number_of_quads": "MaximumNumberOfQuads", "smoothing_steps": "SmoothingSteps",
-    "memory_limit": "MemoryLimit", "time_limit": "TimeLimit", "close_handles": "CloseHandles",
+    "memory_limit": "MemoryLimit", "time_limit": "TimeLimit", "smallest_detail": "SmallestDetail",
     "anisotropy_limit": "AnisotropyLimit", "gap_quads": "GapQuads", "smallest_size": "SmallestSize",
     "largest_size": "LargestSize", "guide_anisotropy": "LeastAnisotropy", "stroke_radius": "StrokeRadius",
     "patch_array": "PatchArrayName", "distortion_metric": "DistortionMetric", "preview": "Preview",

@@ -70,7 +70,7 @@ def _numbers(given):
         "smoothing_steps": whole("smoothing_steps", given["smoothing_steps"], least=0),
         "memory_limit": real("memory_limit", given["memory_limit"], least=0),
         "time_limit": real("time_limit", given["time_limit"], least=0),
-        "close_handles": real("close_handles", given["close_handles"], least=0),
+        "smallest_detail": real("smallest_detail", given["smallest_detail"], least=0),
         "gap_quads": real("gap_quads", given["gap_quads"], least=0),
         "smallest_size": real("smallest_size", given["smallest_size"], above=0, most=1),
         "largest_size": real("largest_size", given["largest_size"], least=1),

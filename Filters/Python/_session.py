@@ -20,7 +20,7 @@ Irregular = collections.namedtuple("Irregular", "point valence")
 #: Settings that go on as they are, by the names of remesh().
 _PLAIN = ("feature_criterion", "method", "integers", "small_details", "small_components",
           "final_quality", "coarse_vertices",
-          "close_handles",
+          "smallest_detail",
           "anisotropy_limit", "distortion_metric", "maximum_number_of_quads", "smoothing_steps", "warm_start",
           "threads", "memory_limit")
 
@@ -86,7 +86,7 @@ class Session:
         """mesh and all others as remesh() has them; further settings: feature_angle (degrees, None: off),
         feature_criterion,
         chord_error (None: off), gap_quads, smallest_size, largest_size, curvature_guides (None: off), method, integers,
-        coarse_vertices, close_handles, small_details, small_components, anisotropy_limit, final_quality,
+        coarse_vertices, smallest_detail, small_details, small_components, anisotropy_limit, final_quality,
         distortion_metric, maximum_number_of_quads, smoothing_steps, warm_start, threads, memory_limit. 5,000 quads
         where no size is given. progress: called as progress(fraction); False (not None) stops the run, see update."""
         if quads is None and edge_length is None and relative_edge_length is None:

@@ -136,7 +136,7 @@ def own_runs():
         single(part, 3000, "missing-patches", PatchArrayName="Slab"),
         single(frame, 1500, "few-coarse-vertices", CoarseVertices=40),
         single(beast, 2000, "automatic-coarse-vertices", CoarseVertices=0),
-        single(frame, 1500, "handles-closed", CloseHandles=40.0),
+        single(frame, 1500, "small-details", SmallestDetail=3.0),
         single(beast, 2000, "unsmoothed", SmoothingSteps=0),
         single(beast, 2000, "area", CellDataFrom=1, patches="slabs"),
         single(beast, 200, "too-many-quads", MaximumNumberOfQuads=50, quick=True),

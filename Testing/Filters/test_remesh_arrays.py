@@ -183,7 +183,7 @@ class Mesh(unittest.TestCase):
                 "smoothing_steps": (-1, 0.5),
                 "memory_limit": (-1, math.nan),
                 "time_limit": (-1, math.nan),
-                "close_handles": (-1, math.inf),
+                "smallest_detail": (-1, math.inf),
                 "anisotropy_limit": (-1, 0.5, math.nan),
                 "method": ("best", 0), "final_quality": ("finest",), "integers": ("few",), "cell_data": ("best",),
                 "small_components": ("shrink",), "small_details": ("ignore", 1),

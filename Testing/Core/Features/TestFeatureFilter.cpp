@@ -128,7 +128,7 @@ TEST(FeatureFilter, SharpCubeIsLeftAlone)
   EXPECT_EQ(featureEdges(mesh), 72u);
 }
 
-constexpr double kBand = 0.1;
+constexpr double kBand = 1.0 / 30;
 
 /// A plane 40 by 40 with a band between the rows y = 20 and y = 20 + rows, where it bends by `first` and `second`
 /// radians. Rows of the band are kBand wide.
@@ -162,7 +162,7 @@ Index edgesOfFirstRow(const Mesh& mesh)
 
 TEST(FeatureFilter, ThinBandKeepsItsSharperSide)
 {
-  // A band of 0.1 by 40 has a mean width of 8 / 80.2, which is 0.03 of 3.32.
+  // The mean width of the band is 1 / 30, which is 0.01 of 3.33.
   Mesh bluntFirst = bentBand(1, 0.8, 0.9);
   EXPECT_EQ(removeUnresolvedFeatures(bluntFirst, 3.4).removedEdges, 40u);
   EXPECT_EQ(edgesOfFirstRow(bluntFirst), 0u);
@@ -256,10 +256,31 @@ TEST(FeatureFilter, NearAPlaceOnlyDetectedFeaturesGo)
   EXPECT_THROW(featuresNear(mesh, {}, 0, isDetectedFeature), InvalidInput);
 }
 
-TEST(FeatureFilter, EdgeLengthMustBePositive)
+TEST(FeatureFilter, NothingIsBelowZero)
 {
-  Mesh mesh = test::gridPlane(2, 2);
-  EXPECT_THROW(removeUnresolvedFeatures(mesh, 0), InvalidInput);
+  Mesh mesh = test::gridPlane(20, 6);
+  markRow(mesh, 2, 3, 4, kDetected);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 0).keptEdges, 1u);
+  EXPECT_THROW(removeUnresolvedFeatures(mesh, -1), InvalidInput);
+}
+
+TEST(FeatureFilter, ALargerDetailNeverBringsAFeatureBack)
+{
+  Mesh mesh = test::gridPlane(40, 12);
+  markRow(mesh, 2, 3, 6, kDetected);
+  markRow(mesh, 4, 3, 30, kDetected);
+  markRow(mesh, 5, 0, 40, kDetected);
+  markRow(mesh, 8, 0, 40, kDetected);
+  std::size_t before = featureEdges(mesh);
+  const std::size_t all = before;
+  for (const double smallest : { 0.0, 0.5, 1.0, 5.0, 10.0, 80.0, 200.0, 400.0 })
+  {
+    Mesh one = mesh;
+    const std::size_t kept = removeUnresolvedFeatures(one, smallest).keptEdges;
+    EXPECT_LE(kept, before) << smallest;
+    before = kept;
+  }
+  EXPECT_LT(before, all);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Evaluation/QuadQuality.h"
+#include "Mesh/SurfaceParts.h"
 #include "MeshInput.h"
 #include "Pipeline/ResultStore.h"
 #include "Pipeline/SmallDetails.h"
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace quadrille
@@ -276,17 +278,46 @@ TEST(SmallDetails, MoreHandlesThanQuadsCanGoRoundAreRefusedAtOnce)
   EXPECT_EQ(result.decimations, 0);
 }
 
-TEST(SmallDetails, CloseHandlesGoesBefore)
+TEST(SmallDetails, SmallestDetailSetsWhatIsCut)
 {
   const test::SphereWithHandle model = test::sphereWithHandle(5, kHandlePlace);
   RemeshOptions options;
   options.quads = quadsFor(model.mouthLength, 2.5);
-  options.smallDetails = SmallDetails::Keep;
-  options.closeHandles = 3;
-  const RemeshResult result = remesh(test::toInput(model.mesh), options);
-  ASSERT_TRUE(result.status.ok()) << result.status.message;
-  ASSERT_EQ(result.details.size(), 1U);
-  EXPECT_EQ(result.details.front().result, "cut and closed, as was asked for");
+  for (const auto& [smallest, isCut] :
+    { std::pair(1.0, false), std::pair(1.5, false), std::pair(2.9, true), std::pair(4.0, true) })
+  {
+    options.smallestDetail = smallest;
+    const RemeshResult result = remesh(test::toInput(model.mesh), options);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    ASSERT_EQ(result.details.size(), 1U) << smallest;
+    EXPECT_EQ(result.details.front().result == kCutAndClosed, isCut) << smallest;
+  }
+}
+
+TEST(SmallDetails, ALargerSmallestDetailNeverBringsADetailBack)
+{
+  // Holes with loops of 4 and 16, and an island of 2 x 2 cells beside: quads of edge length 3.
+  Mesh mesh = plate();
+  Mesh island = test::planeCells(2, 2, [](int, int) { return true; });
+  for (Vector3& p : island.position.editAll())
+  {
+    p.x() += 100;
+  }
+  appendMesh(island, mesh);
+  RemeshOptions options;
+  options.edgeLength = 3;
+  std::vector<std::array<std::size_t, 2>> found;
+  for (const double smallest : { 0.0, 1.0, 1.5, 2.0, 6.0 })
+  {
+    options.smallestDetail = smallest;
+    const RemeshResult result = remesh(test::toInput(mesh), options);
+    ASSERT_TRUE(result.status.ok()) << smallest << ": " << result.status.message;
+    found.push_back({ result.surface.components, result.smallParts.boundary.loops });
+  }
+  // The island has the area of a quad of edge length 2, which is 0.67 over the edge length.
+  const std::vector<std::array<std::size_t, 2>> expected{ { 2, 7 }, { 2, 7 }, { 1, 2 }, { 1, 2 },
+    { 1, 1 } };
+  EXPECT_EQ(found, expected);
 }
 
 TEST(SmallDetails, NothingToSimplifyChangesNothing)
