@@ -8,6 +8,7 @@
 #include "Cad/Placement.h"
 #include "Cad/Shape.h"
 #include "Cad/Tessellation.h"
+#include "Cad/VertexNodes.h"
 
 #include <array>
 #include <cstdint>
@@ -26,7 +27,7 @@ struct CadCalls
   CadSurface (*tessellate)(const CadShape& shape, const TessellationOptions& options);
   std::vector<CadPlace> (*placeOnShape)(const CadShape& shape, const CadSurface& surface,
     const std::vector<Vector3>& points, const PlacementOptions& options);
-  std::size_t (*takeVertices)(const CadShape& shape, const CadSurface& surface,
+  TakenVertices (*takeVertices)(const CadShape& shape, const CadSurface& surface,
     const std::vector<std::array<Index, 4>>& quads, std::vector<CadPlace>& places);
   void (*keepQuads)(const std::vector<std::array<Index, 4>>& quads,
     const std::vector<Vector3>& before, std::vector<CadPlace>& places);

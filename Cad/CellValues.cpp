@@ -3,6 +3,8 @@
 #include "Cad/CellValues.h"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -63,6 +65,35 @@ CadCells cadCells(const CadSurface& surface, CadFollow follow)
     cells.curvatures.push_back(curvatures);
   }
   return cells;
+}
+
+CadLines cadLines(const CadSurface& surface)
+{
+  CadLines lines;
+  std::map<Index, int> vertexAt;
+  for (const Index point : surface.vertexPoints)
+  {
+    constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+    vertexAt.emplace(point, static_cast<int>(lines.vertexPoints.size()));
+    lines.vertexPoints.push_back(
+      point == kInvalidIndex ? Vector3::Constant(kNowhere) : surface.points[point]);
+  }
+  const auto vertexOf = [&](Index point)
+  {
+    const auto found = vertexAt.find(point);
+    return found == vertexAt.end() ? -1 : found->second;
+  };
+  for (const CadEdge& edge : surface.edges)
+  {
+    const std::vector<Index>& along = edge.points;
+    lines.ends.push_back(along.empty()
+        ? std::array{ -1, -1 }
+        : std::array{ vertexOf(along.front()), vertexOf(along.back()) });
+    lines.counts.push_back(static_cast<int>(along.size()));
+    std::transform(along.begin(), along.end(), std::back_inserter(lines.points),
+      [&](Index point) { return surface.points[point]; });
+  }
+  return lines;
 }
 
 std::string nameOfFace(const CadPart& part, std::size_t face)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What is said of the triangles of a part to those who make quads of them.
+/// What is said of a part to those who make quads of it.
 #pragma once
 
 #include "Cad/CadFile.h"
@@ -33,6 +33,17 @@ struct CadCells
 
 /// surface: with curvatures.
 CadCells cadCells(const CadSurface& surface, CadFollow follow);
+
+/// Where edges and vertices are.
+struct CadLines
+{
+  std::vector<std::array<int, 2>> ends; ///< by edge: ids of vertices, or -1
+  std::vector<int> counts;              ///< by edge: how many of the points are of it
+  std::vector<Vector3> points;          ///< polylines of all edges, one after the other
+  std::vector<Vector3> vertexPoints;    ///< by vertex; NaN where no face has it
+};
+
+CadLines cadLines(const CadSurface& surface);
 
 /// That of the file, or FACE_n, n from 1 on.
 std::string nameOfFace(const CadPart& part, std::size_t face);

@@ -7,18 +7,34 @@
 namespace quadrille
 {
 
-std::vector<CadPlace> placeQuads(const CadShape& shape, const TessellationOptions& tessellation,
+PlacedQuads placeQuads(const CadShape& shape, const TessellationOptions& tessellation,
   const CadQuads& quads, const PlacementOptions& options)
 {
   const CadCalls& cad = cadCalls();
   const CadSurface surface = cad.tessellate(shape, tessellation);
-  std::vector<CadPlace> places = cad.placeOnShape(shape, surface, quads.points, options);
+  PlacedQuads result;
+  result.places = cad.placeOnShape(shape, surface, quads.points, options);
   if (quads.isFirstOrder) // else nodes between the corners would have to follow
   {
-    cad.takeVertices(shape, surface, quads.corners, places);
+    const TakenVertices taken = cad.takeVertices(shape, surface, quads.corners, result.places);
+    std::vector<Vector3> beside;
+    for (const Index node : taken.beside)
+    {
+      beside.push_back(result.places[node].point);
+    }
+    const std::vector<CadPlace> again = cad.placeOnShape(shape, surface, beside, options);
+    for (std::size_t i = 0; i < again.size(); ++i)
+    {
+      result.places[taken.beside[i]] = again[i];
+    }
+    result.verticesWithout = taken.without;
+    for (const Index vertex : taken.without)
+    {
+      result.verticesWithoutAt.push_back(surface.points[surface.vertexPoints[vertex]]);
+    }
   }
-  cad.keepQuads(quads.corners, quads.points, places);
-  return places;
+  cad.keepQuads(quads.corners, quads.points, result.places);
+  return result;
 }
 
 } // namespace quadrille

@@ -18,9 +18,16 @@ struct CadQuads
   bool isFirstOrder = true;                  ///< else no node moves along an edge to a vertex
 };
 
-/// #points; see placeOnShape, takeVertices and keepQuads. tessellation: that of the triangles which the quads were made
-/// on.
-std::vector<CadPlace> placeQuads(const CadShape& shape, const TessellationOptions& tessellation,
+struct PlacedQuads
+{
+  std::vector<CadPlace> places; ///< #points
+  /// Of quads of first order: vertices at ends of sharp or free edges that no node is on, and where they are.
+  std::vector<Index> verticesWithout;
+  std::vector<Vector3> verticesWithoutAt;
+};
+
+/// See placeOnShape, takeVertices and keepQuads. tessellation: that of the triangles which the quads were made on.
+PlacedQuads placeQuads(const CadShape& shape, const TessellationOptions& tessellation,
   const CadQuads& quads, const PlacementOptions& options);
 
 } // namespace quadrille

@@ -21,9 +21,11 @@
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <vector>
 
 vtkStandardNewMacro(vtkQuadCADProjection);
@@ -34,6 +36,8 @@ namespace
 using quadrille::CadPlace;
 using quadrille::CadPlaceKind;
 using quadrille::Vector3;
+
+constexpr const char* kWithoutNode = "CadVerticesWithoutNode";
 
 std::vector<Vector3> pointsOf(vtkPointSet* data)
 {
@@ -98,6 +102,22 @@ void writePlaces(const std::vector<CadPlace>& places, vtkPointSet* output)
   output->GetPointData()->AddArray(curvatures);
 }
 
+std::string noticeOfVertices(const quadrille::PlacedQuads& placed)
+{
+  const std::size_t count = placed.verticesWithout.size();
+  if (count == 0)
+  {
+    return "";
+  }
+  const Vector3& at = placed.verticesWithoutAt.front();
+  std::ostringstream text;
+  text << count << (count == 1 ? " corner" : " corners")
+       << " of CAD edges longer than two edge lengths " << (count == 1 ? "has" : "have")
+       << " no node, " << (count == 1 ? "that" : "the first") << " at (" << at.x() << ", " << at.y()
+       << ", " << at.z() << "): quads of this size have no room for it, smaller ones there have";
+  return text.str();
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -119,8 +139,10 @@ void vtkQuadCADProjection::Project(vtkPointSet* input, vtkPointSet* output)
   quadrille::PlacementOptions options;
   options.reach = this->Reach;
   options.tangentEdges = source.tangentEdges;
-  const std::vector<CadPlace> places = quadrille::placeQuads(source.shape, source.options,
+  const quadrille::PlacedQuads placed = quadrille::placeQuads(source.shape, source.options,
     { pointsOf(input), cornersOf(input), isFirstOrder(input) }, options);
+  const std::vector<CadPlace>& places = placed.places;
+  this->NoticesText = noticeOfVertices(placed);
   writePlaces(places, output);
   this->NodesOnGeometry = 0;
   for (const CadPlace& place : places)
@@ -136,6 +158,14 @@ void vtkQuadCADProjection::Project(vtkPointSet* input, vtkPointSet* output)
   off->SetValue(0, this->NodesOffGeometry);
   fields->AddArray(on);
   fields->AddArray(off);
+  fields->RemoveArray(kWithoutNode);
+  if (const std::size_t without = placed.verticesWithout.size(); without > 0)
+  {
+    const auto vertices = quadrille::newArray<vtkIntArray>(kWithoutNode, 1, without);
+    std::copy(
+      placed.verticesWithout.begin(), placed.verticesWithout.end(), vertices->GetPointer(0));
+    fields->AddArray(vertices);
+  }
   output->SetFieldData(fields);
 }
 
@@ -144,6 +174,7 @@ int vtkQuadCADProjection::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->OutcomeText.clear();
+  this->NoticesText.clear();
   vtkPointSet* output = vtkPointSet::GetData(outputs, 0);
   try
   {
@@ -170,5 +201,6 @@ void vtkQuadCADProjection::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Reach: " << this->Reach << "\n";
   os << indent << "NodesOnGeometry: " << this->NodesOnGeometry << "\n";
   os << indent << "NodesOffGeometry: " << this->NodesOffGeometry << "\n";
+  os << indent << "NoticesText: " << this->NoticesText << "\n";
   os << indent << "OutcomeText: " << this->OutcomeText << "\n";
 }

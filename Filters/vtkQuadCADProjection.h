@@ -49,6 +49,12 @@ public:
   vtkGetMacro(NodesOffGeometry, vtkIdType);
   ///@}
 
+  /**
+   * One sentence of the corners of edges without a node, with the place of the first; empty where each has one. Field
+   * data CadVerticesWithoutNode has their ids.
+   */
+  const char* GetNoticesText() { return this->NoticesText.c_str(); }
+
   /// Why the last execution gave nothing; empty after success.
   const char* GetOutcomeText() { return this->OutcomeText.c_str(); }
 
@@ -69,6 +75,7 @@ private:
   double Reach = 0;
   vtkIdType NodesOnGeometry = 0;
   vtkIdType NodesOffGeometry = 0;
+  std::string NoticesText;
   std::string OutcomeText;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadNamedSizes.h"
 
+#include "Base/Lists.h"
 #include "Files/NamedSizes.h"
 
 #include "vtkCompositeDataIterator.h"
@@ -62,13 +63,10 @@ void vtkQuadNamedSizes::Execute(vtkDataObject* input, vtkDataObject* output) con
   std::vector<std::string> names;
   const auto sized = [&](vtkPolyData* surface, const std::string& prefix)
   {
-    quadrille::NamedParts parts(surface, prefix);
+    quadrille::NamedParts parts(quadrille::namedSurface(surface), prefix);
     parts.ask(sizes, isUsed);
-    for (const std::string& name : parts.names())
-    {
-      names.push_back(prefix + name);
-    }
-    return parts.sized();
+    quadrille::append(names, parts.names());
+    return quadrille::sizedPolyData(parts.sized(), surface);
   };
   if (auto* surface = vtkPolyData::SafeDownCast(input))
   {

@@ -56,6 +56,13 @@ py::dict dictOf(const CadPart& part, const TessellationOptions& options, CadFoll
   result["names"] = names;
   result["kinds"] = kinds;
   result["colours"] = arrayFrom(coloursOf(part), 3);
+  const CadLines lines = cadLines(surface);
+  result["CadEdgeNames"] = part.edgeNames;
+  result["CadVertexNames"] = part.vertexNames;
+  result["CadEdgeEnds"] = rowsFrom<std::int32_t>(lines.ends);
+  result["CadEdgeCounts"] = arrayFrom(lines.counts);
+  result["CadEdgePoints"] = arrayFrom(lines.points);
+  result["CadVertexPoints"] = arrayFrom(lines.vertexPoints);
   result["shape"] = arrayFrom(cadCalls().bytesOfShape(part.shape));
   result["tessellation"] = arrayFrom(std::vector<double>{
     options.chordError, options.angle, options.sharpAngle, follow == CadFollow::All ? 1.0 : 0.0 });
@@ -106,7 +113,7 @@ py::tuple placeOnCad(const ArrayOf<std::uint8_t>& shape, const ArrayOf<double>& 
   const std::vector<CadPlace> places = [&]
   {
     const py::gil_scoped_release others;
-    return placeQuads(cadCalls().shapeOfBytes(bytes), options, quads, placement);
+    return placeQuads(cadCalls().shapeOfBytes(bytes), options, quads, placement).places;
   }();
   std::vector<Vector3> placed, normals;
   std::vector<std::uint8_t> kinds;

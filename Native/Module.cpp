@@ -9,6 +9,7 @@
 #include "Native/Files.h"
 #include "Native/RemeshCall.h"
 #include "Native/SessionCall.h"
+#include "Native/SizesCall.h"
 
 #include <exception>
 
@@ -59,6 +60,7 @@ PYBIND11_MODULE(_native, module)
   module.def("remesh", &quadrille::native::remeshCall);
   quadrille::native::bindSession(module);
   quadrille::native::bindFiles(module);
+  quadrille::native::bindSizes(module);
 #ifdef QUADRILLE_WITH_CAD
   quadrille::native::bindCad(module);
 #endif

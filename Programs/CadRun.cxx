@@ -9,6 +9,7 @@
 #ifdef QUADRILLE_WITH_CAD
 #include "Common/VtkErrors.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
 #include <vtkQuadCADProjection.h>
@@ -74,6 +75,8 @@ vtkSmartPointer<vtkPolyData> CadRun::read(RemeshRun& run, const std::string& pat
   reader->JoinPartsOn();
   const ErrorCollector errors(reader);
   const ErrorCollector pipelineErrors(reader->GetExecutive());
+  const vtkNew<vtkCallbackCommand> silence; // its warnings are the notices
+  reader->AddObserver(vtkCommand::WarningEvent, silence);
   reader->Update();
   if (*reader->GetOutcomeText() != '\0')
   {
@@ -108,6 +111,10 @@ vtkSmartPointer<vtkDataSet> CadRun::project(
   run.addNotice(std::to_string(filter->GetNodesOnGeometry()) + " nodes lie on the exact shape, " +
     (off == 0 ? "none" : std::to_string(off)) + (off == 1 ? " stays" : " stay") +
     " on the triangles (point array CadPlace)");
+  if (*filter->GetNoticesText() != '\0')
+  {
+    run.addNotice(filter->GetNoticesText());
+  }
   return vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0));
 }
 

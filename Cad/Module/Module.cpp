@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The module itself: everything that needs Open CASCADE behind one name, see Calls.h.
 #include "Cad/Calls.h"
-#include "Cad/VertexNodes.h"
 
 extern "C" __attribute__((visibility("default"))) const quadrille::CadCalls* quadrilleCadCalls()
 {

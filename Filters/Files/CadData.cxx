@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 namespace quadrille
@@ -96,41 +95,29 @@ vtkSmartPointer<vtkStringArray> stringArray(
   return array;
 }
 
+vtkSmartPointer<vtkDoubleArray> vectorArray(const char* name, const std::vector<Vector3>& values)
+{
+  auto array = newArray<vtkDoubleArray>(name, 3, values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    array->SetTuple(static_cast<vtkIdType>(i), values[i].data());
+  }
+  return array;
+}
+
 /// Names of edges and vertices, and where these are, see CadNames.h.
 void addNames(const CadPart& part, vtkFieldData* fields)
 {
-  const CadSurface& surface = part.surface;
-  const std::size_t edges = surface.edges.size(), vertices = surface.vertexPoints.size();
-  std::map<Index, int> vertexAt;
-  const auto vertexPoints = newArray<vtkDoubleArray>(arrays::kCadVertexPoints, 3, vertices);
-  for (std::size_t v = 0; v < vertices; ++v)
-  {
-    const Index point = surface.vertexPoints[v];
-    constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-    const Vector3 place =
-      point == kInvalidIndex ? Vector3::Constant(kNowhere) : surface.points[point];
-    vertexPoints->SetTuple(static_cast<vtkIdType>(v), place.data());
-    vertexAt.emplace(point, static_cast<int>(v));
-  }
+  const CadLines lines = cadLines(part.surface);
+  const auto vertexPoints = vectorArray(arrays::kCadVertexPoints, lines.vertexPoints);
+  const auto points = vectorArray(arrays::kCadEdgePoints, lines.points);
+  const std::size_t edges = lines.counts.size();
   const auto ends = newArray<vtkIntArray>(arrays::kCadEdgeEnds, 2, edges);
   const auto counts = newArray<vtkIntArray>(arrays::kCadEdgeCounts, 1, edges);
-  const auto points = newArray<vtkDoubleArray>(arrays::kCadEdgePoints, 3);
   for (std::size_t e = 0; e < edges; ++e)
   {
-    const std::vector<Index>& along = surface.edges[e].points;
-    const auto endAt = [&](Index point)
-    {
-      const auto found = vertexAt.find(point);
-      return found == vertexAt.end() ? -1 : found->second;
-    };
-    const auto edge = static_cast<vtkIdType>(e);
-    ends->SetTypedComponent(edge, 0, along.empty() ? -1 : endAt(along.front()));
-    ends->SetTypedComponent(edge, 1, along.empty() ? -1 : endAt(along.back()));
-    counts->SetValue(edge, static_cast<int>(along.size()));
-    for (const Index point : along)
-    {
-      points->InsertNextTuple(surface.points[point].data());
-    }
+    ends->SetTypedTuple(static_cast<vtkIdType>(e), lines.ends[e].data());
+    counts->SetValue(static_cast<vtkIdType>(e), lines.counts[e]);
   }
   const auto edgeNames = stringArray(arrays::kCadEdgeNames, part.edgeNames);
   const auto vertexNames = stringArray(arrays::kCadVertexNames, part.vertexNames);

@@ -24,8 +24,8 @@
 
 Where this package was built for a VTK, meshes are data of VTK. The wheel quadrille-mesh needs NumPy alone: there a
 mesh is a Mesh of arrays, which is the pair (points, faces) as well; data of VTK that go in come out as such.
-read_cad(), on_cad_geometry(), sizes_by_name(), repair(), wrap(), elements(), check(), spread=True and what follows are
-not in the wheel.
+repair(), wrap(), elements(), check(), spread=True and what follows are not in the wheel; read_cad() and
+on_cad_geometry() are in one that was made with Open CASCADE.
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
 vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadElements, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison,

@@ -12,7 +12,7 @@ import numpy
 from . import _native
 from ._arrays import is_far
 from ._errors import InvalidInput, RemeshError
-from ._mesh import Mesh, carried
+from ._mesh import CAD_BYTES, CAD_PLACES, Mesh, carried
 from ._options import NAMES
 
 #: Without VTK there are none of its classes.
@@ -126,7 +126,7 @@ def arrays_of(quads):
 
 def fields_of(quads):
     if isinstance(quads, Mesh):
-        return {name: list(values) for name, values in quads.field_data.items()}
+        return {name: list(values) for name, values in quads.field_data.items() if name not in CAD_BYTES}
     from ._vtk_data import fields_of as of_vtk
 
     return of_vtk(quads)
@@ -344,7 +344,8 @@ def _part_mesh(part, unit):
     cell_data = {"CadFaceId": face, "PatchNames": names[face], "FeatureEdges": part["feature_edges"],
                  "KnownCurvature": part["known_curvature"], "CadColour": part["colours"][face]}
     fields = {"CadShape": part["shape"], "CadTessellation": part["tessellation"], "CadFaceNames": part["names"],
-              "CadSurfaceKinds": part["kinds"], "CadUnitOfFile": [unit]}
+              "CadSurfaceKinds": part["kinds"], "CadUnitOfFile": [unit], **{name: part[name] for name in CAD_PLACES},
+              "CadEdgeNames": part["CadEdgeNames"], "CadVertexNames": part["CadVertexNames"]}
     return Mesh.from_cells(part["points"], 3 * numpy.arange(len(triangles) + 1), triangles.reshape(-1),
                            cell_data=cell_data, field_data=fields)
 
@@ -359,8 +360,60 @@ def read_cad(path, *, chord_error, sharp_angle, follow, join_parts):
     return {part["name"]: _part_mesh(part, unit) for part in parts}
 
 
-def sizes_by_name(*_):
-    raise InvalidInput(f"there are no sizes by name here: {_ELSEWHERE}")
+def _named_dict(surface):
+    """What has names on a surface, as the module takes it."""
+    if len(surface.corners) != 3 * (len(surface.offsets) - 1) or (numpy.diff(surface.offsets) != 3).any():
+        raise InvalidInput("sizes by name are for surfaces of triangles: triangulate this one first")
+    cells, fields = surface.cell_data, surface.field_data
+    result = {"points": surface.points, "triangles": surface.corners}
+    if "PatchNames" in cells:
+        result["face_names"] = [str(name) for name in cells["PatchNames"]]
+    if "Sizing" in surface.point_data:
+        result["sizing"] = _column("Sizing", surface.point_data["Sizing"], numpy.float32)
+    if "FeatureEdges" in cells:
+        result["feature_edges"] = _column("FeatureEdges", cells["FeatureEdges"], numpy.uint8)
+    if "KnownCurvature" in cells:
+        result["known_curvature"] = _column("KnownCurvature", cells["KnownCurvature"], numpy.float32, 6)
+    if all(name in fields for name in (*CAD_PLACES, "CadEdgeNames", "CadVertexNames")):
+        result.update(edge_names=list(fields["CadEdgeNames"]), edge_points=fields["CadEdgePoints"],
+                      edge_counts=fields["CadEdgeCounts"], vertex_names=list(fields["CadVertexNames"]),
+                      vertex_points=fields["CadVertexPoints"])
+    return result
+
+
+def _at_middles(name, values, middles):
+    """A point array with the points in the middle of two others. Real numbers are their average, all else is that of
+    one of them; nobody asks for a valence there."""
+    count = len(values)
+    result = numpy.concatenate((values, values[numpy.zeros(len(middles), numpy.int64)]))
+    for i, (a, b) in enumerate(middles, count):  # the two may be middles themselves
+        result[i] = (result[a] + result[b]) / 2 if values.dtype.kind == "f" else result[a]
+    if name == "TargetValence":
+        result[count:] = 0
+    return result
+
+
+def _sized_mesh(surface, made):
+    parents, triangles = made["parents"], made["triangles"]
+    point_data = {name: _at_middles(name, values, made["middles"]) for name, values in surface.point_data.items()}
+    cell_data = {name: values[parents] for name, values in surface.cell_data.items()}
+    for array, name in (("FeatureEdges", "feature_edges"), ("KnownCurvature", "known_curvature")):
+        if name in made:
+            cell_data[array] = made[name]
+    return Mesh.from_cells(made["points"], 3 * numpy.arange(len(triangles) + 1), triangles.reshape(-1),
+                           point_data={**point_data, "Sizing": made["sizing"]}, cell_data=cell_data,
+                           field_data=surface.field_data)
+
+
+def sizes_by_name(mesh, text):
+    blocks = mesh if isinstance(mesh, dict) else {"": mesh}
+    surfaces = {name: surface_of(block) for name, block in blocks.items()}
+    if any(surface is None for surface in surfaces.values()):
+        raise InvalidInput("take a Mesh of read_cad(), or one with the cell array PatchNames")
+    prefixes = [f"{name}/" if name else "" for name in surfaces]
+    made = _native.sizes_by_name([_named_dict(surface) for surface in surfaces.values()], prefixes, text)
+    sized = {name: _as_given(surfaces[name], _sized_mesh(surfaces[name], own)) for name, own in zip(surfaces, made)}
+    return sized if isinstance(mesh, dict) else sized[""]
 
 
 def on_cad_geometry(mesh):

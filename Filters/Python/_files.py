@@ -47,10 +47,11 @@ def on_cad_geometry(mesh):
 
 
 def sizes_by_name(mesh, sizes):
-    """The surface with sizes of quads by names: a vtkPolyData with the point array Sizing, which remesh() and Session
-    take as it is, and with short triangles beside what has a size. Needs VTK.
+    """The surface with sizes of quads by names: with the point array Sizing, which remesh() and Session take as it is,
+    and with short triangles beside what has a size.
 
-    mesh: of read_cad(), or with the cell array PatchNames; also a vtkMultiBlockDataSet of such ones.
+    mesh: of read_cad(), or with the cell array PatchNames; also a vtkMultiBlockDataSet, in the wheel a dict, of such
+        ones.
     sizes: a dict from names of faces, edges and vertices to factors of the target edge length, {"fillet*": 0.5}; *
         stands for any letters, ? for one. CAD edges and vertices without a name are EDGE_n and VERTEX_n, by their ids
         from 1, and take factors up to 1. Of several sizes of one name the last one counts; where faces, edges and

@@ -6,6 +6,12 @@ import numpy
 from ._arrays import as_faces, as_points
 
 
+#: In field data, where edges and vertices of a CAD file are, see Filters/Files/CadNames.h.
+CAD_PLACES = ("CadEdgeEnds", "CadEdgePoints", "CadEdgeCounts", "CadVertexPoints")
+#: What info() leaves out: these places, and the exact shape, which are bytes.
+CAD_BYTES = ("CadShape", *CAD_PLACES)
+
+
 def _offsets_of(counts):
     return numpy.concatenate(([0], numpy.cumsum(counts))).astype(numpy.int64)
 

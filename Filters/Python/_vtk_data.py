@@ -4,6 +4,7 @@
 import numpy
 
 from ._errors import InvalidInput
+from ._mesh import CAD_BYTES
 
 
 def as_polydata(mesh):
@@ -73,7 +74,7 @@ def fields_of(data):
     result = {}
     for i in range(fields.GetNumberOfArrays()):
         array = fields.GetAbstractArray(i)
-        if array.GetName() in ("CadShape", "CadEdgePoints", "CadEdgeCounts", "CadEdgeEnds", "CadVertexPoints"):
+        if array.GetName() in CAD_BYTES:
             continue
         values = [array.GetVariantValue(k) for k in range(array.GetNumberOfValues())]
         result[array.GetName()] = [

@@ -8,7 +8,9 @@
 Prints a row each: seconds, quads, the share of the length of sharp edges longer than two edge lengths that chains of
 the quads' edges cover, the share of their corners that are points of the quads, nodes on the exact shape, and the
 distance of nodes from it over the diagonal (99.9 % of them, and the largest), by Testing/Cad/cad_measure. With --lost
-also each of these edges that is not kept whole: its id, the length that is not, its length, and its middle.
+also each of these edges that is not kept whole: its id, the length that is not, its length, and its middle; and each
+corner that is no point of the quads: its id, its place, and how far the nearest corner is that is one, over the edge
+length.
 """
 import argparse
 import pathlib
@@ -107,7 +109,7 @@ def chords_of_edges(quads, ends, lines):
 
 def kept_edges(quads, reader, size):
     """Length kept and length of the sharp edges longer than two edge lengths; corners kept and their number; and rows
-    of the edges that are not kept whole."""
+    of the edges that are not kept whole, and of the corners."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     edges = reader.GetEdges()
     all_points = vtk_to_numpy(edges.GetPoints().GetData())
@@ -120,7 +122,9 @@ def kept_edges(quads, reader, size):
     ends = vtk_to_numpy(reader.GetOutputDataObject(0).GetFieldData().GetArray("CadEdgeEnds"))
     chords, vertices = chords_of_edges(quads, ends, lines)
     kept = length = corners_kept = corners_all = 0
-    lost = []
+    lost, corners = [], {}
+    at_vertices = vtk_to_numpy(quads.GetPoints().GetData())[
+        vtk_to_numpy(quads.GetPointData().GetArray("CadPlace")) == 3]
     for edge, line in lines.items():
         if numpy.linalg.norm(numpy.diff(line, axis=0), axis=1).sum() <= 2 * size:
             continue
@@ -131,7 +135,10 @@ def kept_edges(quads, reader, size):
         if not numpy.allclose(line[0], line[-1]):
             corners_all += 2
             corners_kept += sum(vertex in vertices for vertex in ends[edge])
-    return (kept, length, corners_kept, corners_all), lost
+            for end, vertex in zip((line[0], line[-1]), ends[edge]):
+                if vertex not in vertices:
+                    corners[vertex] = end, numpy.linalg.norm(at_vertices - end, axis=1).min(initial=numpy.inf) / size
+    return (kept, length, corners_kept, corners_all), lost, corners
 
 
 def distances(measure, part, grid, sample, folder):
@@ -178,19 +185,21 @@ def main():
                 reader.JoinPartsOn()
                 reader.AddObserver("WarningEvent", lambda caller, event: None)
                 reader.Update()
-                kept, lost = kept_edges(grid, reader, size)
+                kept, lost, corners = kept_edges(grid, reader, size)
                 sums += kept
             else:
                 reader = vtkXMLUnstructuredGridReader()
                 reader.SetFileName(str(mesh))
                 reader.Update()
-                grid, kept, lost = reader.GetOutput(), numpy.ones(4), []
+                grid, kept, lost, corners = reader.GetOutput(), numpy.ones(4), [], {}
             away, _, _, off, nodes = distances(measure, part, grid, options.sample, folder)
             print(part.name, count, f"{seconds:.1f}", grid.GetNumberOfCells(),
                   f"{kept[0] / kept[1]:.4f}" if kept[1] else "-", f"{kept[2] / kept[3]:.4f}" if kept[3] else "-",
                   off, nodes, f"{numpy.quantile(away, 0.999):.1e}", f"{away.max():.1e}", flush=True)
             for edge, missing, whole, middle in lost if options.lost else []:
                 print(f"  lost: edge {edge}, {missing:.3g} of {whole:.3g} at", *(f"{x:.5g}" for x in middle))
+            for vertex, (at, distance) in sorted(corners.items()) if options.lost else []:
+                print(f"  lost: vertex {vertex} at", *(f"{x:.5g}" for x in at), f"nearest corner {distance:.2f}")
     if options.order == 1 and sums[1]:
         print(f"all: {sums[0] / sums[1]:.4%} of the length, {sums[2] / max(1, sums[3]):.4%} of the corners")
 

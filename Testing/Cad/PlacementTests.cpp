@@ -156,11 +156,55 @@ TEST(Placement, VerticesWithinStraightLinesGetNodes)
   std::vector<CadPlace> places = placeOnShape(shape, surface, points);
   EXPECT_EQ(places[1].kind, CadPlaceKind::Edge);
   // Nodes 4 and 7, on upright edges, go to the upper ends of these, for which this strip has no others.
-  EXPECT_EQ(takeVertices(shape, surface, quads, places), 3U);
+  const TakenVertices taken = takeVertices(shape, surface, quads, places);
+  EXPECT_EQ(taken.taken, 3U);
+  EXPECT_TRUE(taken.beside.empty());
   EXPECT_EQ(places[1].kind, CadPlaceKind::Vertex);
   EXPECT_EQ(places[1].point, Vector3(1, 0, 0));
   EXPECT_EQ(places[2].point, points[2]);
-  EXPECT_EQ(takeVertices(shape, surface, quads, places), 0U);
+  EXPECT_EQ(takeVertices(shape, surface, quads, places).taken, 0U);
+}
+
+/// Quads so flat that one node alone would shear those beside it go along, up to the third row.
+TEST(Placement, NodesBesideAVertexMakeRoom)
+{
+  const TopoDS_Shape both = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(1, 1, 1).Shape(),
+    BRepPrimAPI_MakeBox(gp_Pnt(1, 0, 0), gp_Pnt(2, 1, 1)).Shape())
+                              .Shape();
+  const CadShape shape = shapeOf(both);
+  const CadSurface surface = tessellate(shape);
+  constexpr Index kColumns = 9, kRows = 4;
+  std::vector<Vector3> points;
+  std::vector<std::array<Index, 4>> quads;
+  for (Index j = 0; j <= kRows; ++j)
+  {
+    for (Index i = 0; i <= kColumns; ++i)
+    {
+      points.emplace_back(2.0 * i / kColumns, 0, 0.05 * j);
+      if (i < kColumns && j < kRows)
+      {
+        const Index at = j * (kColumns + 1) + i;
+        quads.push_back({ at, at + 1, at + kColumns + 2, at + kColumns + 1 });
+      }
+    }
+  }
+  std::vector<CadPlace> places = placeOnShape(shape, surface, points);
+  const TakenVertices taken = takeVertices(shape, surface, quads, places);
+  EXPECT_EQ(taken.taken, 1U);
+  EXPECT_GT(taken.beside.size(), 6U);
+  const auto atVertex = std::find_if(places.begin(), places.end(),
+    [](const CadPlace& place) { return place.point == Vector3(1, 0, 0); });
+  ASSERT_NE(atVertex, places.end());
+  EXPECT_EQ(atVertex->kind, CadPlaceKind::Vertex);
+  for (Index i = 0; i <= kColumns; ++i) // the first row keeps its order, the last one its places
+  {
+    EXPECT_TRUE(i == 0 || places[i - 1].point.x() < places[i].point.x() - 0.1);
+    EXPECT_EQ(places[i].point.tail<2>(), Eigen::Vector2d(0, 0));
+    const Index last = kRows * (kColumns + 1) + i;
+    EXPECT_EQ(places[last].point, points[last]);
+  }
+  // All others of the boxes are too far away for this strip.
+  EXPECT_EQ(taken.without.size(), 9U);
 }
 
 TEST(Placement, QuadsThatWouldBeTurnedOverStay)

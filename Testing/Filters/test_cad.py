@@ -219,6 +219,37 @@ def near_origin(points):
 NAMED = {"upper rim": near_rim, "front edge": near_front, "origin": near_origin}
 
 
+class Notices(unittest.TestCase):
+    def test_the_command_tells_each_once(self):
+        text = (FOLDER / "named.step").read_text()
+        self.assertIn("SI_UNIT(.MILLI.,.METRE.)", text)
+        (FOLDER / "metres.step").write_text(text.replace("SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT($,.METRE.)"))
+        result = run(FOLDER / "metres.step", FOLDER / "metres.inp", "--quads", 200)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((result.stdout + result.stderr).count("the unit of the file is"), 1, result.stderr)
+
+    def test_corners_without_a_node(self):
+        """Quads of a whole box have nodes at all corners, the lower half of them none at the upper ones."""
+        whole = quadrille.remesh(quadrille.read(FOLDER / "named.step"), quads=300)
+        points, faces = quadrille.to_arrays(whole)
+        lower = faces[(points[faces][:, :, 2] < 1.2).all(axis=1)]
+        used, corners = numpy.unique(lower, return_inverse=True)
+        half = quadrille.to_polydata(points[used], corners.reshape(-1, 4))
+        half.GetFieldData().ShallowCopy(whole.GetFieldData())
+
+        def told(quads):
+            projection = quadrille.QuadrilleFilters.vtkQuadCADProjection()
+            projection.SetInputData(quads)
+            projection.Update()
+            ids = projection.GetOutputDataObject(0).GetFieldData().GetArray("CadVerticesWithoutNode")
+            return projection.GetNoticesText(), ids.GetNumberOfValues() if ids else 0
+
+        self.assertEqual(told(whole), ("", 0))
+        text, count = told(half)
+        self.assertEqual(count, 4)
+        self.assertRegex(text, r"^4 corners of CAD edges .* have no node, the first at \(-?\d, \d, 2\): quads of")
+
+
 class Sets(unittest.TestCase):
     """Named edges and vertices of the file are sets, which other programs read."""
 

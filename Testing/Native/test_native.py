@@ -254,6 +254,39 @@ def nonsense(folder):
     ]
 
 
+class SizesByName(unittest.TestCase):
+    """Of a plate of two patches, one of which gets smaller quads."""
+
+    def named_plate(self):
+        points, faces = plate()
+        left = points[faces].mean(axis=1)[:, 0] < points[:, 0].mean()
+        valences = numpy.arange(len(points), dtype=numpy.int32) % 2 * 4
+        return quadrille.Mesh(points, faces, point_data={"TargetValence": valences, "x": points[:, 0].copy()},
+                              cell_data={"PatchNames": numpy.where(left, "left", "right").astype(object)})
+
+    def test_faces(self):
+        surface = self.named_plate()
+        sized = quadrille.sizes_by_name(surface, {"l*t": 0.5})
+        left = (sized.cell_data["PatchNames"] == "left")
+        self.assertEqual(set(sized.point_data["Sizing"][sized.faces[left]].ravel()), {numpy.float32(0.5)})
+        self.assertEqual(set(sized.point_data["Sizing"]), {numpy.float32(0.5), numpy.float32(1)})
+        numpy.testing.assert_allclose(sized.point_data["x"], sized.points[:, 0], atol=1e-12)
+        self.assertTrue((sized.point_data["TargetValence"][len(surface.points):] == 0).all())
+
+    def test_names_that_nothing_has(self):
+        with self.assertRaisesRegex(quadrille.InvalidInput, 'is called "lift"; the nearest of 2 names are left, right'):
+            quadrille.sizes_by_name(self.named_plate(), {"lift": 0.5})
+        with self.assertRaisesRegex(quadrille.InvalidInput, "has no names"):
+            quadrille.sizes_by_name(quadrille.Mesh(*plate()), {"left": 0.5})
+        with self.assertRaisesRegex(quadrille.InvalidInput, "triangulate"):
+            quadrille.sizes_by_name(quadrille.Mesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)]),
+                                    {"left": 0.5})
+
+    def test_blocks(self):
+        both = quadrille.sizes_by_name({"a": self.named_plate(), "b": self.named_plate()}, {"b/left": 0.5})
+        self.assertEqual([float(both[name].point_data["Sizing"].min()) for name in ("a", "b")], [1, 0.5])
+
+
 class Nonsense(unittest.TestCase):
     def test_twenty(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -287,9 +320,13 @@ class Cad(unittest.TestCase):
     def test_nodes_are_those_of_the_command(self):
         with tempfile.TemporaryDirectory() as folder:
             theirs, ours = (os.path.join(folder, name) for name in ("theirs.obj", "ours.obj"))
-            for options, arguments in (({}, []), ({"angle_a_quad": 10.0}, ["--angle-a-quad", "10"])):
+            part = quadrille.read(self.BRACKET)
+            sizes = {"bore": 0.5, "EDGE_1": 0.6, "VERTEX_2": 0.7}
+            for surface, options, arguments in (
+                    (part, {}, []), (part, {"angle_a_quad": 10.0}, ["--angle-a-quad", "10"]),
+                    (quadrille.sizes_by_name(part, sizes), {}, [f"--size={name}={of}" for name, of in sizes.items()])):
                 subprocess.run([COMMAND, self.BRACKET, theirs, "--quads", "800", "--quiet", *arguments], check=True)
-                quads = quadrille.remesh(quadrille.read(self.BRACKET), quads=800, **options)
+                quads = quadrille.remesh(surface, quads=800, **options)
                 quadrille.write(quadrille.on_cad_geometry(quads), ours)
                 with open(theirs, "rb") as first, open(ours, "rb") as second:
                     self.assertEqual(first.read(), second.read())
