@@ -75,11 +75,11 @@ walk.Begin()
 while not walk.IsAtEnd():
     names.append(walk.GetKey())
     walk.Next()
-# Calm at first: the verdict, the number, features, small details, symmetry and the result.
+# Calm at first: the verdict, the number, features, the smallest detail, symmetry and the result.
 shown = {name for name in names if default.SMProxy.GetProperty(name).GetPanelVisibility() == "default"
          and name != "Input"}
 known = {"Verdict", "TargetType", "NumberOfQuads", "EdgeLength", "RelativeEdgeLength", "DetectFeatures", "FeatureAngle",
-         "SmallDetails", "Symmetry", "PlaneCurve", "RotationOrder", "SymmetryOrigin", "SymmetryNormal", "ResultText"}
+         "SmallestDetail", "Symmetry", "PlaneCurve", "RotationOrder", "SymmetryOrigin", "SymmetryNormal", "ResultText"}
 check(shown == known, f"at first the panel has {shown - known} more, and not {known - shown}")
 check(names.index("Verdict") < names.index("NumberOfQuads") < names.index("FeatureAngle")
       < names.index("GuidingStrokes") < names.index("ResultText") < names.index("NumberOfThreads"),
