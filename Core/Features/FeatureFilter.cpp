@@ -25,7 +25,7 @@ namespace quadrille
 namespace
 {
 
-/// Over the smallest detail, as the others.
+/// Over the smallest detail, as the next one.
 constexpr double kShortestDangling = 4;
 /// Mean width of a patch; there a quad is at least so much narrower than it is long.
 constexpr double kThinnestPatch = 0.01;

@@ -119,7 +119,7 @@ public:
 
   /// Takes the levels along when few places of the finest mesh have changed: they are then those of `fine`. Phase 1
   /// must have kept no vertices. What it would do anew near the changed places is done there alone, so the levels are
-  /// as good as new ones and not the same. options: of which threads and isConnected count. False where too many
+  /// as good as new ones and not the same. options: threads, isExact and isConnected count. False where too many
   /// vertices would have to come back; this object is of no use then. Cancelled leaves it so, too.
   bool follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
     const HierarchyOptions& options);

@@ -117,17 +117,20 @@ double sumOfAreas(const Mesh& mesh, int threads)
   return area;
 }
 
-/// Box, area, and no caps.
-void measure(PreparedSurface& surface, int threads)
+void measureBox(PreparedSurface& surface, int threads)
 {
   const PointBox box = boxOfPoints(surface.mesh.position, threads);
   surface.boundingBoxDiagonal = (box.high - box.low).norm();
+}
+
+/// Needs the box.
+void mendCaps(PreparedSurface& surface, int threads)
+{
   surface.repair.flippedCaps = flipCaps(surface, threads);
   if (surface.repair.flippedCaps > 0)
   {
     orderSurface(surface, threads);
   }
-  surface.area = sumOfAreas(surface.mesh, threads);
 }
 
 } // namespace
@@ -172,7 +175,9 @@ PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& optio
     repairSeconds += watch.lap();
   }
 
-  measure(surface, options.threads);
+  measureBox(surface, options.threads);
+  mendCaps(surface, options.threads);
+  surface.area = sumOfAreas(surface.mesh, options.threads);
   report(options.progress, 0.8, "Finding features");
   markFeatures(surface, input, options);
   collectRequests(input, surface, options.threads);

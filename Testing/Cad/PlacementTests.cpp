@@ -142,13 +142,17 @@ TEST(Placement, NormalsAndCurvaturesAreThoseOfTheShape)
   }
 }
 
-/// Two boxes side by side have edges that are divided where nothing bends.
+/// Side by side: they have edges that are divided where nothing bends.
+CadShape twoBoxes()
+{
+  return shapeOf(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(1, 1, 1).Shape(),
+    BRepPrimAPI_MakeBox(gp_Pnt(1, 0, 0), gp_Pnt(2, 1, 1)).Shape())
+                   .Shape());
+}
+
 TEST(Placement, VerticesWithinStraightLinesGetNodes)
 {
-  const TopoDS_Shape both = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(1, 1, 1).Shape(),
-    BRepPrimAPI_MakeBox(gp_Pnt(1, 0, 0), gp_Pnt(2, 1, 1)).Shape())
-                              .Shape();
-  const CadShape shape = shapeOf(both);
+  const CadShape shape = twoBoxes();
   const CadSurface surface = tessellate(shape);
   const std::vector<Vector3> points{ { 0, 0, 0 }, { 0.8, 0, 0 }, { 1.5, 0, 0 }, { 2, 0, 0 },
     { 0, 0, 0.5 }, { 0.8, 0, 0.5 }, { 1.5, 0, 0.5 }, { 2, 0, 0.5 } };
@@ -168,10 +172,7 @@ TEST(Placement, VerticesWithinStraightLinesGetNodes)
 /// Quads so flat that one node alone would shear those beside it go along, up to the third row.
 TEST(Placement, NodesBesideAVertexMakeRoom)
 {
-  const TopoDS_Shape both = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(1, 1, 1).Shape(),
-    BRepPrimAPI_MakeBox(gp_Pnt(1, 0, 0), gp_Pnt(2, 1, 1)).Shape())
-                              .Shape();
-  const CadShape shape = shapeOf(both);
+  const CadShape shape = twoBoxes();
   const CadSurface surface = tessellate(shape);
   constexpr Index kColumns = 9, kRows = 4;
   std::vector<Vector3> points;
