@@ -75,6 +75,29 @@ std::vector<std::array<quadrille::Index, 4>> cornersOf(vtkPointSet* data)
   return quads;
 }
 
+/// Of each point a face of the part that it is of: that of one of its cells; empty where these do not know it.
+std::vector<quadrille::Index> facesOf(vtkPointSet* data)
+{
+  const auto* ids =
+    vtkIntArray::SafeDownCast(data->GetCellData()->GetArray(quadrille::arrays::kCadFaceId));
+  if (!ids)
+  {
+    return {};
+  }
+  std::vector<quadrille::Index> faces(
+    static_cast<std::size_t>(data->GetNumberOfPoints()), quadrille::kInvalidIndex);
+  vtkNew<vtkIdList> points;
+  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+  {
+    data->GetCellPoints(c, points);
+    for (const vtkIdType point : *points)
+    {
+      faces[static_cast<std::size_t>(point)] = static_cast<quadrille::Index>(ids->GetValue(c));
+    }
+  }
+  return faces;
+}
+
 bool isFirstOrder(vtkPointSet* data)
 {
   return data->GetMaxCellSize() <= 4;
@@ -108,19 +131,18 @@ void writePlaces(const std::vector<CadPlace>& places, vtkPointSet* output)
   output->GetPointData()->AddArray(curvatures);
 }
 
-std::string noticeOfVertices(const quadrille::PlacedQuads& placed)
+/// place: of the first one.
+std::string noticeOfCorners(vtkIdType count, const std::string& place)
 {
-  const std::size_t count = placed.verticesWithout.size();
   if (count == 0)
   {
     return "";
   }
-  const Vector3& at = placed.verticesWithoutAt.front();
   std::ostringstream text;
   text << count << (count == 1 ? " corner" : " corners")
        << " of CAD edges longer than two edge lengths " << (count == 1 ? "has" : "have")
-       << " no node, " << (count == 1 ? "that" : "the first") << " at (" << at.x() << ", " << at.y()
-       << ", " << at.z() << "): quads of this size have no room for it, smaller ones there have";
+       << " no node, " << (count == 1 ? "that" : "the first") << " at " << place
+       << ": quads of this size have no room for it, smaller ones there have";
   return text.str();
 }
 
@@ -223,7 +245,7 @@ void vtkQuadCADProjection::Project(
   options.reach = this->Reach;
   options.tangentEdges = source.tangentEdges;
   const quadrille::PlacedQuads placed = quadrille::placeQuads(source.shape, source.options,
-    { pointsOf(input), cornersOf(input), isFirstOrder(input) }, options);
+    { pointsOf(input), cornersOf(input), isFirstOrder(input), facesOf(input) }, options);
   const std::vector<CadPlace>& places = placed.places;
   writePlaces(places, output);
   addProblems(placed, problems);
@@ -232,10 +254,17 @@ void vtkQuadCADProjection::Project(
   const vtkIdType on = static_cast<vtkIdType>(places.size()) - off;
   this->NodesOnGeometry += on;
   this->NodesOffGeometry += off;
-  if (const std::string notice = noticeOfVertices(placed); !notice.empty())
+  if (!placed.verticesWithout.empty())
   {
-    this->NoticesText +=
-      (this->NoticesText.empty() ? "" : "\n") + (name.empty() ? "" : name + ": ") + notice;
+    if (this->CornersWithoutNode == 0)
+    {
+      const Vector3& at = placed.verticesWithoutAt.front();
+      std::ostringstream place;
+      place << "(" << at.x() << ", " << at.y() << ", " << at.z() << ")"
+            << (name.empty() ? "" : " of " + name);
+      this->FirstCornerWithout = place.str();
+    }
+    this->CornersWithoutNode += static_cast<vtkIdType>(placed.verticesWithout.size());
   }
   vtkNew<vtkFieldData> fields; // of its own, whatever a shallow copy shares
   fields->ShallowCopy(input->GetFieldData());
@@ -284,7 +313,7 @@ void vtkQuadCADProjection::Execute(
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadCADProjection::SetVerdict()
+void vtkQuadCADProjection::SetTexts()
 {
   const vtkIdType on = this->NodesOnGeometry, off = this->NodesOffGeometry;
   std::ostringstream text;
@@ -298,9 +327,8 @@ void vtkQuadCADProjection::SetVerdict()
          << " on the triangles, as no place of the exact shape is near, or a quad would be turned "
             "over there";
   }
-  std::string notices = this->NoticesText;
-  std::replace(notices.begin(), notices.end(), '\n', ';');
-  this->Verdict = text.str() + (notices.empty() ? "" : "; " + notices);
+  this->NoticesText = noticeOfCorners(this->CornersWithoutNode, this->FirstCornerWithout);
+  this->Verdict = text.str() + (this->NoticesText.empty() ? "" : "; " + this->NoticesText);
 }
 
 //------------------------------------------------------------------------------
@@ -311,13 +339,14 @@ int vtkQuadCADProjection::RequestData(
   this->NoticesText.clear();
   this->NodesOnGeometry = 0;
   this->NodesOffGeometry = 0;
+  this->CornersWithoutNode = 0;
   vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
   vtkPolyData* problems = vtkPolyData::GetData(outputs, 1);
   beginProblems(problems);
   try
   {
     this->Execute(vtkDataObject::GetData(inputs[0], 0), output, problems);
-    this->SetVerdict();
+    this->SetTexts();
     return 1;
   }
   catch (const std::bad_alloc&)

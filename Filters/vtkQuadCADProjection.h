@@ -55,8 +55,8 @@ public:
   ///@}
 
   /**
-   * A line of the corners of edges without a node, with the place of the first; empty where each has one. Of composite
-   * data a line each, with the name of the block. Field data CadVerticesWithoutNode has their ids.
+   * One sentence of the corners of edges without a node, with the place of the first, and its block; empty where each
+   * has one. Field data CadVerticesWithoutNode has their ids.
    */
   const char* GetNoticesText() { return this->NoticesText.c_str(); }
 
@@ -85,11 +85,13 @@ private:
   /// name: of the block; empty where there is one data set.
   void Project(
     vtkPointSet* input, const std::string& name, vtkPointSet* output, vtkPolyData* problems);
-  void SetVerdict();
+  void SetTexts();
 
   double Reach = 0;
   vtkIdType NodesOnGeometry = 0;
   vtkIdType NodesOffGeometry = 0;
+  vtkIdType CornersWithoutNode = 0;
+  std::string FirstCornerWithout; ///< its place
   std::string NoticesText;
   std::string OutcomeText;
   std::string Verdict;

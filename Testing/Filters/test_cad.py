@@ -299,7 +299,7 @@ class Notices(unittest.TestCase):
         projection.Update()
         self.assertEqual(projection.GetNodesOnGeometry(), len(points) + len(used))
         self.assertEqual(projection.GetNodesOffGeometry(), len(used))
-        self.assertIn("half: 4 corners of CAD edges", projection.GetNoticesText())
+        self.assertRegex(projection.GetNoticesText(), r"^12 corners .* the first at \(-?\d, \d, 2\) of half: quads of")
         self.assertRegex(projection.GetVerdict(), rf"^{len(used)} of {len(points) + 2 * len(used)} nodes stay on")
         kinds = vtk_to_numpy(projection.GetOutputDataObject(1).GetCellData().GetArray("CadProblem"))
         self.assertEqual((kinds == 1).sum(), len(used))
