@@ -7,8 +7,8 @@ without a message or with a code that its help does not list, or leaves a file b
   damaged_files.py QUADRILLE MESH... [--files N] [--seed N] [--jobs N] [--limit SECONDS] [--keep FOLDER]
 
 MESH, a PLY file, is written in every format that the command reads; a CAD file is taken as it is. Each damaged file is
-one of these with bytes changed, cut away, doubled or inserted, numbers replaced, lines swapped or dropped. The same seed
-makes the same files. What fails is kept in --keep.
+one of these with bytes changed, cut away, doubled or inserted, numbers replaced, lines swapped or dropped. The same
+seed makes the same files. What fails is kept in --keep.
 """
 import argparse
 import collections
