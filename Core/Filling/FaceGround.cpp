@@ -21,18 +21,6 @@ constexpr double kFineSpacing = 0.8, kSmallest = 0.05;
 /// By how much sizes grow with the distance from such pins.
 constexpr double kGrowthFromPins = 0.4;
 
-TriangleList trianglesOf(const Mesh& mesh)
-{
-  TriangleList triangles;
-  triangles.points = mesh.position;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    triangles.corners.push_back(
-      { mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] });
-  }
-  return triangles;
-}
-
 /// Weighted by the angles at the vertex, so that they do not depend on how the surface is cut into triangles.
 std::vector<Vector3> vertexNormals(const Mesh& mesh)
 {
