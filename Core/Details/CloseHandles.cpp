@@ -19,6 +19,9 @@ namespace quadrille
 namespace
 {
 
+/// A cap with less area than this share of its girth squared has none, up to rounding.
+constexpr double kFlatCap = 1e-9;
+
 /// The half-edges from each vertex of the loop to the next one.
 std::vector<Index> halfEdgesOf(const Mesh& mesh, const LoopSearch::Loop& loop)
 {
@@ -29,6 +32,36 @@ std::vector<Index> halfEdgesOf(const Mesh& mesh, const LoopSearch::Loop& loop)
     halfEdges.push_back(mesh.origin[h] == loop.vertices[i] ? h : mesh.twin[h]);
   }
   return halfEdges;
+}
+
+/// Where a loop leads along an edge and back, as at the rim of a wall that has no thickness there, its cap has no area,
+/// and both sides of it would be features on each other: one side stays. first: of the fan of the cap.
+void openFlatCap(Mesh& mesh, Index first, Index count, double girth)
+{
+  const auto corner = [&](Index i) -> const Vector3&
+  { return mesh.position[mesh.origin[3 * (first + i) + 1]]; };
+  double area = 0;
+  Index begin = 0, end = 0;
+  for (Index i = 0; i < count; ++i)
+  {
+    area += mesh.faceArea(first + i);
+    begin = (corner(i) - corner(0)).norm() > (corner(begin) - corner(0)).norm() ? i : begin;
+  }
+  for (Index i = 0; i < count; ++i)
+  {
+    const double apart = (corner(i) - corner(begin)).norm();
+    end = apart > (corner(end) - corner(begin)).norm() ? i : end;
+  }
+  if (area > kFlatCap * girth * girth)
+  {
+    return;
+  }
+  for (Index i = begin; i != end; i = (i + 1) % count)
+  {
+    const Index rim = 3 * (first + i);
+    mesh.flags.edit()[rim] = 0;
+    mesh.flags.edit()[mesh.twin[rim]] = 0;
+  }
 }
 
 } // namespace
@@ -83,6 +116,10 @@ std::vector<std::size_t> closeHandles(PreparedSurface& surface,
     const Index first = surface.mesh.faceCount();
     cutAndClose(surface, cut);
     const Index second = first + static_cast<Index>(cut.size());
+    for (const Index cap : { first, second })
+    {
+      openFlatCap(surface.mesh, cap, static_cast<Index>(cut.size()), girth);
+    }
     stubs.push_back({ 3 * first + 2, girth });
     stubs.push_back({ 3 * second + 2, girth });
   }

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <tuple>
+#include <utility>
 
 namespace quadrille
 {
@@ -48,6 +48,21 @@ std::vector<Index> boundaryLoops(const std::vector<Index>& next, Index& count)
     }
   }
   return loopOf;
+}
+
+/// Per half-edge of these a number that rises along each loop.
+std::vector<Index> ranksOnLoops(const std::vector<Index>& next)
+{
+  std::vector<Index> rank(next.size(), kInvalidIndex);
+  Index count = 0;
+  for (Index first = 0; first < next.size(); ++first)
+  {
+    for (Index h = first; next[h] != kInvalidIndex && rank[h] == kInvalidIndex; h = next[h])
+    {
+      rank[h] = count++;
+    }
+  }
+  return rank;
 }
 
 } // namespace
@@ -190,9 +205,9 @@ std::vector<Index> FaceCurves::endsOnGiven() const
     });
 }
 
-void FaceCurves::setGiven(std::vector<CurvePoint> points)
+void FaceCurves::setGiven(std::vector<CurvePoint> given)
 {
-  given_ = std::move(points);
+  given_ = std::move(given);
   // A point at the end of an edge is one at the beginning of the next.
   for (CurvePoint& point : given_)
   {
@@ -201,31 +216,91 @@ void FaceCurves::setGiven(std::vector<CurvePoint> points)
       point = { nextOnBoundary(mesh_, point.h), 0 };
     }
   }
-  const std::vector<Index> ends = endsOnGiven();
   Index loops = 0;
-  const std::vector<Index> loopOf = boundaryLoops(nextOnBoundaries(mesh_), loops);
-  std::vector<std::tuple<double, Index, std::size_t>> pairs; // the nearest first
-  for (const Index h : ends)
+  const std::vector<Index> next = nextOnBoundaries(mesh_);
+  const std::vector<Index> loopOf = boundaryLoops(next, loops);
+  const std::vector<Index> ranks = ranksOnLoops(next);
+  std::vector<std::vector<LoopPlace>> ends(loops), points(loops);
+  for (const Index h : endsOnGiven())
   {
-    for (std::size_t i = 0; i < given_.size(); ++i)
+    ends[loopOf[h]].push_back({ ranks[h], 0, h });
+  }
+  for (Index i = 0; i < given_.size(); ++i)
+  {
+    points[loopOf[given_[i].h]].push_back({ ranks[given_[i].h], given_[i].t, i });
+  }
+  for (Index loop = 0; loop < loops; ++loop)
+  {
+    std::sort(ends[loop].begin(), ends[loop].end());
+    std::sort(points[loop].begin(), points[loop].end());
+    moveToEnds(ends[loop], points[loop]);
+  }
+}
+
+/// Of a loop, in the order round it: half-edges that ends begin, and points that are given. Each end takes the nearer
+/// one of the points on both sides of it that are free yet; those that others have taken in between move on by one, so
+/// that the order stays.
+void FaceCurves::moveToEnds(
+  const std::vector<LoopPlace>& ends, const std::vector<LoopPlace>& points)
+{
+  const std::size_t count = points.size();
+  if (count < ends.size())
+  {
+    return;
+  }
+  std::vector<std::uint8_t> isTaken(count, 0);
+  const auto freeFrom = [&](std::size_t i, std::size_t step)
+  {
+    while (isTaken[i % count] != 0)
     {
-      if (loopOf[given_[i].h] == loopOf[h])
-      {
-        const Vector3 way =
-          positionOf(mesh_, given_[i].onSurface()) - mesh_.position[mesh_.origin[h]];
-        pairs.emplace_back(way.squaredNorm(), h, i);
-      }
+      i += step;
+    }
+    return i % count;
+  };
+  const auto distance = [&](const LoopPlace& end, std::size_t i)
+  {
+    return (
+      positionOf(mesh_, given_[points[i].id].onSurface()) - mesh_.position[mesh_.origin[end.id]])
+      .norm();
+  };
+  const auto nearest = [&](const LoopPlace& end)
+  {
+    const auto at = std::lower_bound(points.begin(), points.end(), end) - points.begin();
+    const std::size_t before = freeFrom(static_cast<std::size_t>(at) + count - 1, count - 1);
+    const std::size_t behind = freeFrom(static_cast<std::size_t>(at), 1);
+    return std::min(
+      std::pair(distance(end, behind), behind), std::pair(distance(end, before), before));
+  };
+  std::vector<std::pair<double, std::size_t>> order; // of ends, the nearest first
+  for (std::size_t k = 0; k < ends.size(); ++k)
+  {
+    order.emplace_back(nearest(ends[k]).first, k);
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [apart, k] : order)
+  {
+    isTaken[nearest(ends[k]).second] = 1;
+  }
+  // Round the loop from a point that stays: between two of those there are as many ends as points that move.
+  std::size_t first = 0, k = 0;
+  if (ends.size() < count)
+  {
+    first = freeFrom(0, 1);
+    k = static_cast<std::size_t>(
+      std::upper_bound(ends.begin(), ends.end(), points[first]) - ends.begin());
+  }
+  else if (!ends.empty())
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      first = distance(ends[0], i) < distance(ends[0], first) ? i : first;
     }
   }
-  std::sort(pairs.begin(), pairs.end());
-  std::set<Index> done;
-  std::vector<std::uint8_t> isTaken(given_.size(), 0);
-  for (const auto& [distance, h, i] : pairs)
+  for (std::size_t i = first; i < first + count; ++i)
   {
-    if (isTaken[i] == 0 && done.insert(h).second)
+    if (isTaken[i % count] != 0)
     {
-      isTaken[i] = 1;
-      given_[i] = { h, 0 };
+      given_[points[i % count].id] = { ends[k++ % ends.size()].id, 0 };
     }
   }
 }

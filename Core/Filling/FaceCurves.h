@@ -47,9 +47,9 @@ public:
   Index faceCount() const { return faces_; }
   bool isGiven(Index h) const { return isGiven_[h] != 0; }
 
-  /// points: of the quads beside, on edges that are given. Where curves end on these the nearest point is moved to that
-  /// place.
-  void setGiven(std::vector<CurvePoint> points);
+  /// given: points of the quads beside, on edges that are given. Where curves end on these a near point is moved to
+  /// that place; their order stays.
+  void setGiven(std::vector<CurvePoint> given);
   const std::vector<CurvePoint>& given() const
   {
     return given_;
@@ -71,6 +71,18 @@ private:
   std::optional<CurveStep> stepAfter(const CurveStep& step) const;
   bool isNode(Index v) const;
   std::vector<Index> endsOnGiven() const;
+  struct LoopPlace
+  {
+    Index rank; ///< of the half-edge, rising along the loop
+    double t;
+    Index id;
+
+    bool operator<(const LoopPlace& other) const
+    {
+      return std::pair(rank, t) < std::pair(other.rank, other.t);
+    }
+  };
+  void moveToEnds(const std::vector<LoopPlace>& ends, const std::vector<LoopPlace>& points);
   void findGroups();
   Index beginOf(const CurveStep& step) const
   {

@@ -21,18 +21,6 @@ constexpr double kFineSpacing = 0.8, kSmallest = 0.05;
 /// By how much sizes grow with the distance from such pins.
 constexpr double kGrowthFromPins = 0.4;
 
-TriangleList trianglesOf(const Mesh& mesh)
-{
-  TriangleList triangles;
-  triangles.points = mesh.position;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    triangles.corners.push_back(
-      { mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] });
-  }
-  return triangles;
-}
-
 /// Weighted by the angles at the vertex, so that they do not depend on how the surface is cut into triangles.
 std::vector<Vector3> vertexNormals(const Mesh& mesh)
 {
@@ -177,15 +165,22 @@ void FaceGround::collectFinePins()
     if (isPin(v) && spacing[v] < kFineSpacing * sizeAt(face_, v))
     {
       finePins_.emplace_back(face_.position[v], std::max(spacing[v], kSmallest * sizeAt(face_, v)));
+      finest_ = std::min(finest_, finePins_.back().second);
     }
   }
+  std::sort(finePins_.begin(), finePins_.end(),
+    [](const FinePin& a, const FinePin& b) { return a.first.x() < b.first.x(); });
 }
 
 double FaceGround::sizeNear(const Vector3& p, double size) const
 {
-  for (const auto& [place, sizeThere] : finePins_)
+  // Of farther ones none makes it smaller.
+  const double reach = (1 + 1e-9) * (size - finest_) / kGrowthFromPins * edgeLength_;
+  const auto first = std::lower_bound(finePins_.begin(), finePins_.end(), p.x() - reach,
+    [](const FinePin& pin, double x) { return pin.first.x() < x; });
+  for (auto pin = first; pin != finePins_.end() && pin->first.x() <= p.x() + reach; ++pin)
   {
-    size = std::min(size, sizeThere + kGrowthFromPins * (place - p).norm() / edgeLength_);
+    size = std::min(size, pin->second + kGrowthFromPins * (pin->first - p).norm() / edgeLength_);
   }
   return size;
 }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -71,8 +72,9 @@ private:
   std::vector<Index> nextPin_;
   std::vector<double> angles_; ///< per vertex
   std::vector<std::size_t> pinsOfLoops_;
-  std::vector<std::pair<Vector3, double>>
-    finePins_; ///< place, size by the distance of its neighbours
+  using FinePin = std::pair<Vector3, double>; ///< place, size by the distance of its neighbours
+  std::vector<FinePin> finePins_;             ///< by x
+  double finest_ = std::numeric_limits<double>::infinity(); ///< least size of these
 };
 
 /// 1 for an equilateral triangle, 0 for one without area, below 0 for one that is turned over against the normal.

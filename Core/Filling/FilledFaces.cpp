@@ -229,7 +229,7 @@ private:
       pointOf.push_back(
         addPoint(onMesh(triangles[filled->sourceFace[i]], filled->sourceWeights[i])));
     }
-    const NearestTriangle nearest = trianglesOf(face);
+    const NearestTriangle nearest(trianglesOf(face));
     const auto placeOf = [&](const Vector3& p)
     {
       const NearestTriangle::Place place = *nearest.at(p);
@@ -252,17 +252,6 @@ private:
       made_.quads.quadSourceFace.push_back(middle.face);
       made_.quads.quadSourceWeights.push_back({});
     }
-  }
-
-  static NearestTriangle trianglesOf(const Mesh& face)
-  {
-    TriangleList list;
-    list.points = face.position.vector();
-    for (Index h = 0; h < face.halfEdgeCount(); h += 3)
-    {
-      list.corners.push_back({ face.origin[h], face.origin[h + 1], face.origin[h + 2] });
-    }
-    return NearestTriangle(std::move(list));
   }
 
   /// Where a curve comes back near itself, faces on both sides may join the same two of its points by an edge inside,

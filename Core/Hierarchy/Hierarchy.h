@@ -58,8 +58,6 @@ struct HierarchyOptions
   /// Phase 1 may leave some edges shorter than s/2, where that costs more time than it saves later: for a
   /// level that is thinned out again.
   bool isRough = false;
-  /// The finest mesh has no noise that folds it: what turns far is a part of its shape.
-  bool isExact = false;
   /// The finest mesh is known to have one component, which saves looking for small ones; the result is the same.
   bool isConnected = false;
   /// For Redecimation: where it remembers what removals cost, with others of the same s, and the vertices that these do
@@ -119,7 +117,7 @@ public:
 
   /// Takes the levels along when few places of the finest mesh have changed: they are then those of `fine`. Phase 1
   /// must have kept no vertices. What it would do anew near the changed places is done there alone, so the levels are
-  /// as good as new ones and not the same. options: threads, isExact and isConnected count. False where too many
+  /// as good as new ones and not the same. options: threads and isConnected count. False where too many
   /// vertices would have to come back; this object is of no use then. Cancelled leaves it so, too.
   bool follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
     const HierarchyOptions& options);

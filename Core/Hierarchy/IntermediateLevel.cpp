@@ -53,7 +53,6 @@ UniformOptions uniformOptions(double edgeLength, const HierarchyOptions& options
   UniformOptions uniform;
   uniform.edgeLength = 0.5 * edgeLength;
   uniform.curveTolerance = kCurveTolerance * edgeLength;
-  uniform.isExact = options.isExact;
   uniform.threads = options.threads;
   return uniform;
 }

@@ -137,10 +137,6 @@ void UniformDecimation::run()
     return;
   }
   finish(last);
-  if (options_.isExact)
-  {
-    return;
-  }
   // Noise of scans folds the surface; a star that is folded itself may be replaced by one that is no worse.
   guards_.allowOldFolds = true;
   idle_.clear(); // they have copies of the guards

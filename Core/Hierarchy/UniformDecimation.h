@@ -30,7 +30,6 @@ struct UniformOptions
   std::vector<Index> keepVertices;
   /// Empty: all vertices. Else only these may go, ascending: a part of a mesh that is thinned out already.
   std::vector<Index> candidates;
-  bool isExact = false; ///< see HierarchyOptions
   /// Ends where few edges are still short in place of none, at borders of blocks and where stars are folded.
   bool isRough = false;
   int threads = 0;

@@ -4,6 +4,7 @@
 
 #include <unsupported/Eigen/BVH>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -166,6 +167,28 @@ private:
   NearestTriangle::Place best_;
 };
 
+/// For Eigen's BVIntersect.
+struct WithinSearch
+{
+  bool intersectVolume(const TriangleBox& box) const
+  {
+    return box.squaredExteriorDistance(p) <= distance * distance;
+  }
+  bool intersectObject(Index t)
+  {
+    if (placeOn(cornersOf(triangles, t), t, p).distance <= distance)
+    {
+      found.push_back(t);
+    }
+    return false; // there may be more
+  }
+
+  const TriangleList& triangles;
+  const Vector3& p;
+  double distance;
+  std::vector<Index> found;
+};
+
 std::vector<Index> countUp(std::size_t count)
 {
   std::vector<Index> ids(count);
@@ -191,6 +214,18 @@ std::vector<TriangleBox> boxesOf(const TriangleList& triangles)
 }
 
 } // namespace
+
+TriangleList trianglesOf(const Mesh& mesh)
+{
+  TriangleList list;
+  list.points = mesh.position.vector();
+  list.corners.resize(mesh.faceCount());
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    list.corners[f] = { mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] };
+  }
+  return list;
+}
 
 struct NearestTriangle::Tree
 {
@@ -221,6 +256,17 @@ std::optional<NearestTriangle::Place> NearestTriangle::at(
   }
   const Place best = TreeSearch(triangles_, tree_->boxes, p, facing, within).run();
   return best.triangle == kInvalidIndex ? std::nullopt : std::optional<Place>(best);
+}
+
+std::vector<Index> NearestTriangle::within(const Vector3& p, double distance) const
+{
+  WithinSearch search{ triangles_, p, distance, {} };
+  if (tree_)
+  {
+    Eigen::BVIntersect(tree_->boxes, search);
+  }
+  std::sort(search.found.begin(), search.found.end());
+  return std::move(search.found);
 }
 
 NearestTriangle::Place NearestTriangle::on(Index triangle, const Vector3& p) const

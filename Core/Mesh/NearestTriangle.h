@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Base/Types.h"
+#include "Mesh/Mesh.h"
 
 #include <array>
 #include <limits>
@@ -20,6 +21,8 @@ struct TriangleList
   std::vector<Vector3> points;
   std::vector<std::array<Index, 3>> corners;
 };
+
+TriangleList trianglesOf(const Mesh& mesh);
 
 /// A tree of boxes, of Eigen's KdBVH. Several threads may ask; the answers depend on the triangles alone.
 class NearestTriangle
@@ -43,6 +46,8 @@ public:
   /// lead this way from a to b. Zero: all.
   std::optional<Place> at(const Vector3& p, const Vector3& facing = Vector3::Zero(),
     double within = std::numeric_limits<double>::infinity()) const;
+  /// All that are no farther away, ascending.
+  std::vector<Index> within(const Vector3& p, double distance) const;
   /// Of one triangle.
   Place on(Index triangle, const Vector3& p) const;
   const TriangleList& triangles() const { return triangles_; }

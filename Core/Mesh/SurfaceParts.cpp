@@ -32,13 +32,7 @@ public:
   {
     if (!tree_)
     {
-      TriangleList triangles;
-      triangles.points = mesh_.position.vector();
-      for (Index h = 0; h < mesh_.halfEdgeCount(); h += 3)
-      {
-        triangles.corners.push_back({ mesh_.origin[h], mesh_.origin[h + 1], mesh_.origin[h + 2] });
-      }
-      tree_.emplace(std::move(triangles));
+      tree_.emplace(trianglesOf(mesh_));
     }
     return partOfFace_[tree_->at(place)->triangle];
   }

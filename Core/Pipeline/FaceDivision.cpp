@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/FaceDivision.h"
 
+#include "Base/DisjointSets.h"
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Filling/FaceCurves.h"
@@ -75,11 +76,12 @@ std::vector<std::uint8_t> failedLabels(
   return isFailed;
 }
 
-/// A segment tree of the boundary that is shared.
+/// The boundary of the faces that are cut out where it is that of the rest, by points of the latter.
 class SharedBoundary
 {
 public:
-  explicit SharedBoundary(const CutFaces& cut)
+  SharedBoundary(const CutFaces& cut, const Mesh& rest)
+    : cut_(cut), rest_(rest), behind_(rest.vertexCount(), kInvalidIndex), before_(behind_)
   {
     TriangleList list;
     list.points = cut.faces.mesh.position.vector();
@@ -87,43 +89,85 @@ public:
     {
       if (cut.isShared[h] != 0)
       {
-        const Index a = cut.faces.mesh.origin[h];
-        list.corners.push_back({ a, cut.faces.mesh.target(h), a });
+        const Index a = cut.faces.mesh.origin[h], b = cut.faces.mesh.target(h);
+        inwards_.push_back(inwardOf(list.points[b], list.points[a], cut.beyond[halfEdges_.size()]));
+        list.corners.push_back({ a, b, a });
         halfEdges_.push_back(h);
       }
     }
     segments_.emplace(std::move(list));
+    for (Index h = 0; h < rest.halfEdgeCount(); ++h)
+    {
+      if (rest.isBoundary(h))
+      {
+        before_[rest.origin[h]] = h;
+        behind_[rest.target(h)] = h;
+      }
+    }
   }
 
-  /// Where a point on it lies, between its neighbours behind and before it on the boundary of the quads beside, which
-  /// leads the other way. Where the boundary meets itself, or another one, the neighbours tell which of the edges at
-  /// that place it is.
-  std::optional<CurvePoint> at(
-    const Vector3& place, const std::array<Vector3, 2>& neighbours, double within) const
+  /// Where a point of the rest's quads lies: none off the boundary, one inside of an edge. At a vertex one on the edge
+  /// before it along the boundary of the rest, and one on the edge behind it: these are not at the same corner of the
+  /// faces where the rest meets several of them in a vertex.
+  std::vector<CurvePoint> at(const QuadMesh& quads, Index p, double within) const
   {
-    constexpr double towards = 1e-3;
-    if (!segments_->at(place, Vector3::Zero(), within))
+    std::vector<CurvePoint> places;
+    const Vector3& place = quads.points[p];
+    if (const std::optional<Index> corner = meshCorner(quads, p))
     {
-      return std::nullopt;
+      const Index v = rest_.origin[*corner];
+      if (before_[v] != kInvalidIndex)
+      {
+        addBeside(before_[v], place, within, places);
+        addBeside(behind_[v], place, within, places);
+      }
+      return places;
     }
-    std::optional<NearestTriangle::Place> nearest;
-    for (const std::size_t side : { 0, 1 })
+    const auto onEdge = locateOnCurve(rest_, { quads.sourceFace[p], quads.sourceWeights[p] });
+    if (onEdge && rest_.isBoundary(onEdge->h))
     {
-      const Vector3 on = neighbours[side] - place;
-      const auto found = segments_->at(place + towards * on, side == 0 ? on : Vector3(-on));
-      nearest = found && (!nearest || found->distance < nearest->distance) ? found : nearest;
+      addBeside(onEdge->h, place, within, places);
     }
-    if (!nearest)
-    {
-      return std::nullopt;
-    }
-    constexpr double rounding = 1e-9;
-    const double t = segments_->on(nearest->triangle, place).weights[1];
-    return CurvePoint{ halfEdges_[nearest->triangle], t < rounding ? 0 : 1 - t < rounding ? 1 : t };
+    return places;
   }
 
 private:
-  std::vector<Index> halfEdges_;
+  /// Across an edge into the face that has a third corner there.
+  static Vector3 inwardOf(const Vector3& a, const Vector3& b, const Vector3& third)
+  {
+    const Vector3 along = (b - a).normalized();
+    const Vector3 way = third - a;
+    return (way - way.dot(along) * along).normalized();
+  }
+
+  /// h: of the rest, with the place on it. The faces have no shorter edges there, and theirs lead the other way. Of
+  /// several that lie on each other it is the one beside which the same face of the rest lies.
+  void addBeside(
+    Index h, const Vector3& place, double within, std::vector<CurvePoint>& places) const
+  {
+    const Vector3& a = rest_.position[rest_.origin[h]];
+    const Vector3& b = rest_.position[rest_.target(h)];
+    const Vector3 inward = inwardOf(a, b, rest_.position[rest_.origin[Mesh::previous(h)]]);
+    std::optional<Index> best;
+    for (const Index i : segments_->within((a + b) / 2, within))
+    {
+      const Mesh& faces = cut_.faces.mesh;
+      const bool isBetter = !best || inwards_[i].dot(inward) > inwards_[*best].dot(inward);
+      best = faces.edgeVector(halfEdges_[i]).dot(b - a) < 0 && isBetter ? i : best;
+    }
+    if (best)
+    {
+      constexpr double rounding = 1e-9;
+      const double t = segments_->on(*best, place).weights[1];
+      places.push_back({ halfEdges_[*best], t < rounding ? 0 : 1 - t < rounding ? 1 : t });
+    }
+  }
+
+  const CutFaces& cut_;
+  const Mesh& rest_;
+  std::vector<Index> behind_, before_; ///< half-edges on the boundary, per vertex
+  std::vector<Index> halfEdges_;       ///< of the faces, that are shared
+  std::vector<Vector3> inwards_;       ///< of these, into the rest
   std::optional<NearestTriangle> segments_;
 };
 
@@ -176,7 +220,7 @@ public:
   {
     if (restMesh_ != nullptr)
     {
-      boundary_.emplace(cut);
+      boundary_.emplace(cut, *restMesh_);
     }
     const Mesh& mesh = cut.faces.mesh;
     beforeOnBoundary_.assign(mesh.halfEdgeCount(), kInvalidIndex);
@@ -196,6 +240,11 @@ public:
     for (std::size_t strips = 0; strips <= kMostStrips; ++strips)
     {
       findShared();
+      if (!alone_.empty())
+      {
+        made.failedAt = std::move(alone_);
+        return made;
+      }
       curves_.setGiven(places_);
       odd = curves_.chooseNumbers();
       if (odd.empty() || !insertStrip(odd))
@@ -215,6 +264,7 @@ public:
     made.quads = std::move(filled.quads);
     made.failedAt = std::move(filled.failedAt);
     made.points = std::move(points_);
+    made.same = std::move(same_);
     return made;
   }
 
@@ -232,6 +282,7 @@ private:
   {
     points_.clear();
     places_.clear();
+    same_.clear();
     if (restQuads_ == nullptr)
     {
       return;
@@ -249,18 +300,18 @@ private:
       }
     }
     const std::vector<Vector3>& points = restQuads_->points;
-    std::map<Index, CurvePoint> onShared;
+    std::map<Index, std::vector<CurvePoint>> onShared;
     for (const auto& [p, beside] : neighbours)
     {
-      const auto place = boundary_->at(
-        points[p], { points[beside[0]], points[beside[1]] }, kSameBoundary * edgeLength_);
-      if (place)
+      const std::vector<CurvePoint> places =
+        boundary_->at(*restQuads_, p, kSameBoundary * edgeLength_);
+      if (!places.empty())
       {
-        onShared.emplace(p, *place);
+        onShared.emplace(p, places);
       }
     }
-    std::map<Index, CurvePoint> atEnds;
-    for (const auto& [p, place] : onShared)
+    std::map<Index, std::vector<CurvePoint>> atEnds;
+    for (const auto& [p, places] : onShared)
     {
       for (const std::size_t side : { 0, 1 })
       {
@@ -269,19 +320,69 @@ private:
         {
           continue;
         }
-        const CurvePoint end = endOfShared(place.h, side == 0);
+        const CurvePoint end =
+          endOfShared((side == 0 ? places.back() : places.front()).h, side == 0);
         const Vector3 there = positionOf(cut_.faces.mesh, end.onSurface());
         if ((points[beyond] - there).norm() < (points[p] - there).norm())
         {
-          atEnds.emplace(beyond, end);
+          atEnds[beyond] = { end };
         }
       }
     }
     onShared.insert(atEnds.begin(), atEnds.end());
-    for (const auto& [p, place] : onShared)
+    placeShared(onShared);
+  }
+
+  /// A place at the end of an edge as one at the beginning of the next.
+  CurvePoint fromBegin(const CurvePoint& place) const
+  {
+    return place.t < 1 ? place : CurvePoint{ nextOnBoundary(cut_.faces.mesh, place.h), 0 };
+  }
+
+  /// Points at one corner of the faces are one point, though the rest has several where it meets itself there. Where it
+  /// has one on one side of such a corner only, nothing fits.
+  void placeShared(const std::map<Index, std::vector<CurvePoint>>& onShared)
+  {
+    DisjointSets same(restQuads_->points.size(), 1);
+    std::map<Index, Index> atCorner;    // by the half-edge there
+    std::set<Index> isBefore, isBehind; // corners with a point on the edge there
+    for (const auto& [p, places] : onShared)
     {
-      points_.push_back(p);
-      places_.push_back(place);
+      for (const CurvePoint& place : places)
+      {
+        const CurvePoint there = fromBegin(place);
+        if (there.t <= 0)
+        {
+          (place.t < 1 ? isBehind : isBefore).insert(there.h);
+          same.join(p, atCorner.emplace(there.h, p).first->second);
+        }
+      }
+    }
+    for (const auto& [h, p] : atCorner)
+    {
+      const bool isInside = cut_.isShared[h] != 0 && cut_.isShared[beforeOnBoundary_[h]] != 0;
+      if (isInside && isBefore.count(h) != isBehind.count(h))
+      {
+        alone_.push_back(restQuads_->points[p]);
+      }
+    }
+    std::set<Index> done;
+    for (const auto& [p, places] : onShared)
+    {
+      const Index one = same.find(p);
+      if (one != p)
+      {
+        same_.push_back({ p, one });
+      }
+      for (const CurvePoint& place : places)
+      {
+        const CurvePoint there = fromBegin(place);
+        if (there.t > 0 || done.insert(there.h).second)
+        {
+          points_.push_back(one);
+          places_.push_back(there);
+        }
+      }
     }
   }
 
@@ -361,6 +462,8 @@ private:
   std::vector<Index> beforeOnBoundary_; ///< #H, as nextOnBoundary the other way
   std::vector<Index> points_;           ///< of the rest, on the common boundary
   std::vector<CurvePoint> places_;
+  std::vector<std::array<Index, 2>> same_; ///< see FilledPart
+  std::vector<Vector3> alone_;             ///< see placeShared
 };
 
 } // namespace
@@ -403,6 +506,29 @@ double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed)
     out += isFailed[labels[f]] != 0 ? area : 0;
   }
   return out / all;
+}
+
+bool addFacesAt(const std::vector<Vector3>& places, const SizedSurface& whole, FailedFaces& failed)
+{
+  const Mesh& mesh = whole.surface->mesh;
+  const std::vector<Index> labels = faceLabels(mesh);
+  std::vector<std::uint8_t> isFailed = failedLabels(mesh, labels, failed);
+  const std::size_t before = failed.faces.size();
+  const NearestTriangle triangles(trianglesOf(mesh));
+  for (const Vector3& place : places)
+  {
+    for (const Index f : triangles.within(place, kSameBoundary * whole.edgeLength))
+    {
+      if (isFailed[labels[f]] == 0)
+      {
+        isFailed[labels[f]] = 1;
+        failed.faces.push_back(f);
+      }
+    }
+  }
+  const bool isMore = failed.faces.size() > before;
+  std::sort(failed.faces.begin(), failed.faces.end());
+  return isMore;
 }
 
 std::vector<Vector3> gapsIn(const QuadMesh& quads)
@@ -484,6 +610,10 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
     if (isOut(h))
     {
       cut.isShared.push_back(isCut[h]);
+      if (isCut[h] != 0)
+      {
+        cut.beyond.push_back(mesh.middleOfFace(Mesh::face(mesh.twin[h])));
+      }
     }
   }
   const auto countComponents = [&](PreparedSurface& surface)

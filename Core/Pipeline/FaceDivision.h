@@ -7,6 +7,7 @@
 #include "Pipeline/Division.h"
 #include "Pipeline/Pipeline.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,8 +21,10 @@ struct CutFaces
 {
   PreparedSurface faces;              ///< that go without a map, with the features between them
   std::vector<std::uint8_t> isShared; ///< #H of its mesh: of its boundary, where the rest was
-  std::vector<Index> curves;          ///< which of the whole's begin on them
-  double share = 0;                   ///< of the area over the sizes
+  std::vector<Vector3>
+    beyond; ///< of these half-edges, ascending: the middle of the rest's face there
+  std::vector<Index> curves; ///< which of the whole's begin on them
+  double share = 0;          ///< of the area over the sizes
   std::size_t count = 0;
   std::optional<SizedPart> rest; ///< none where these are all
 };
@@ -36,6 +39,8 @@ bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history);
 /// The area of the faces in which a map has failed over that of the surface.
 double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed);
+/// Adds those at places, as where quads do not fit; whether there are any that had not failed.
+bool addFacesAt(const std::vector<Vector3>& places, const SizedSurface& whole, FailedFaces& failed);
 CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int threads);
 
 /// The faces with quads that meet those of the rest.
@@ -43,6 +48,8 @@ struct FilledPart
 {
   QuadMesh quads;            ///< on the mesh of the faces; the first points are those of the rest
   std::vector<Index> points; ///< which of the rest's these are
+  std::vector<std::array<Index, 2>>
+    same;                        ///< of the rest's points the first one is to be the second one
   std::vector<Vector3> failedAt; ///< why there are none
 };
 /// Where quads of faces and of the rest do not meet; empty where all is well.

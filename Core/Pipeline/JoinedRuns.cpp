@@ -294,36 +294,46 @@ void JoinedRuns::addFilled(const CutFaces& cut, FilledPart filled)
     "it begins on a face between sharp edges that has no map; ask for more quads");
   addQuadMesh(filled.quads, faces, all);
   // Points of the rest stand for those that lie on them.
-  std::vector<Index> newId(all.points.size());
-  std::iota(newId.begin(), newId.end(), Index{ 0 });
+  std::vector<Index> stands(all.points.size());
+  std::iota(stands.begin(), stands.end(), Index{ 0 });
   for (Index i = 0; i < shared; ++i)
   {
     const Index p = filled.points[i];
-    newId[before + i] = p;
+    stands[before + i] = p;
     all.points[p] = filled.quads.points[i];
     all.sourceFace[p] = filled.quads.sourceFace[i] + faces;
     all.sourceWeights[p] = filled.quads.sourceWeights[i];
   }
-  for (Index p = before + shared; p < newId.size(); ++p)
+  for (const auto& [p, one] : filled.same)
   {
-    newId[p] = p - shared;
+    stands[p] = one;
   }
-  const auto erase = [&](auto& values)
-  { values.erase(values.begin() + before, values.begin() + before + shared); };
-  erase(all.points);
-  erase(all.sourceFace);
-  erase(all.sourceWeights);
+  std::vector<Index> newId(stands.size(), kInvalidIndex);
+  Index kept = 0;
+  for (Index p = 0; p < stands.size(); ++p)
+  {
+    if (stands[p] == p)
+    {
+      all.points[kept] = all.points[p];
+      all.sourceFace[kept] = all.sourceFace[p];
+      all.sourceWeights[kept] = all.sourceWeights[p];
+      newId[p] = kept++;
+    }
+  }
+  all.points.resize(kept);
+  all.sourceFace.resize(kept);
+  all.sourceWeights.resize(kept);
   for (std::array<Index, 4>& quad : all.quads)
   {
     for (Index& p : quad)
     {
-      p = newId[p];
+      p = newId[stands[p]];
     }
   }
   for (QuadLine& line : all.lines)
   {
-    line.a = newId[line.a];
-    line.b = newId[line.b];
+    line.a = newId[stands[line.a]];
+    line.b = newId[stands[line.b]];
   }
   joinLines(all);
   const QuadTopology topology = analyzeQuads(all.quads, all.points.size());

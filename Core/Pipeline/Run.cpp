@@ -32,6 +32,9 @@ namespace quadrille
 namespace
 {
 
+/// Faces at places where quads do not fit are cut out as well so often, each time with a map of the rest.
+constexpr int kMostGrowths = 2;
+
 /// The memory of the last map, for the next one.
 struct SpareMap
 {
@@ -339,7 +342,8 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
   return true;
 }
 
-/// The faces in which the last attempt has failed are filled beside the quads of the rest, or else all of them.
+/// The faces in which the last attempt has failed are filled beside the quads of the rest; where these do not fit, with
+/// their neighbours at the places where they do not, or else all.
 bool remeshBesideFaces(const History& history, Settled& settled, SizedSurface& sized,
   const Asked& asked, RemeshResult& result, Failure& failure)
 {
@@ -348,11 +352,19 @@ bool remeshBesideFaces(const History& history, Settled& settled, SizedSurface& s
     return remeshCut(cutFaces(sized, faces, asked.options.threads), history, settled, sized, asked,
       result, failure);
   };
-  FailedFaces all;
-  all.faces = idsWhere(sized.surface->mesh.faceCount(), [](Index) { return true; });
   countTry(Try::FilledFaces);
-  const bool isFilled =
-    (!history.failedFaces().empty() && with(history.failedFaces())) || with(all);
+  FailedFaces faces = history.failedFaces();
+  bool isFilled = !faces.empty() && with(faces);
+  for (int i = 0; i < kMostGrowths && !isFilled && addFacesAt(failure.places, sized, faces); ++i)
+  {
+    isFilled = with(faces);
+  }
+  if (!isFilled)
+  {
+    faces = {};
+    faces.faces = idsWhere(sized.surface->mesh.faceCount(), [](Index) { return true; });
+    isFilled = with(faces);
+  }
   countTryLed(Try::FilledFaces, isFilled ? 1 : 0);
   return isFilled;
 }

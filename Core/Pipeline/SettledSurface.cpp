@@ -156,7 +156,6 @@ std::size_t changeSurface(
   sized.key = KeyMaker(sized.key).add(changed.hash).key();
   HierarchyOptions options;
   options.threads = work.options.threads;
-  options.isExact = changed.facets.isDesigned;
   options.isConnected = changed.components == 1;
   if (levels && mayFollow(work) && changed.namesBefore &&
     levels->levels->follow(changed.mesh, changed.hash, *changed.namesBefore, options))

@@ -20,18 +20,6 @@ namespace
 constexpr std::array<int, 8> kEvenings{ 64, 32, 16, 8, 4, 2, 1, 1 };
 constexpr std::size_t kFitChunk = 256;
 
-TriangleList facesOf(const Mesh& mesh)
-{
-  TriangleList list;
-  list.points = mesh.position;
-  list.corners.resize(mesh.faceCount());
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    list.corners[f] = { mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] };
-  }
-  return list;
-}
-
 /// Edges of the boundary, or features inside.
 TriangleList linesOf(const Mesh& mesh, bool boundary)
 {
@@ -218,7 +206,7 @@ private:
 } // namespace
 
 SearchedSurface::SearchedSurface(PreparedSurface prepared)
-  : surface(std::move(prepared)), faces(facesOf(surface.mesh)),
+  : surface(std::move(prepared)), faces(trianglesOf(surface.mesh)),
     features(linesOf(surface.mesh, false)), boundary(linesOf(surface.mesh, true))
 {
 }

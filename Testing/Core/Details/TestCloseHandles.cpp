@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Details/CloseHandles.h"
 
+#include "Base/Angles.h"
 #include "Details/Handles.h"
+#include "Mesh/CutOpen.h"
+#include "Mesh/Topology.h"
 #include "SurfaceInputs.h"
 #include "TestHandleMeshes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace quadrille
 {
@@ -172,6 +176,79 @@ TEST(CloseHandles, WhatIsLongOrNoHandleStays)
     EXPECT_EQ(surface.hash, hash);
     EXPECT_EQ(surface.repair.closedHandles, 0u);
   }
+}
+
+/// Two cubes at the same place, joined crosswise along slits in two of their edges.
+Mesh cubesJoinedAtSlits()
+{
+  const Mesh cube = test::unitCube(4);
+  Mesh mesh = test::disjointUnion(cube, cube, Vector3::Zero());
+  std::vector<std::uint8_t> isCut(mesh.halfEdgeCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3 from = mesh.position[mesh.origin[h]], to = mesh.position[mesh.target(h)];
+    const bool isOnEdge = from.x() == from.y() && to.x() == from.x() && to.y() == from.x() &&
+      (from.x() == 0 || from.x() == 1);
+    isCut[h] = isOnEdge && std::min(from.z(), to.z()) > 0.2 && std::max(from.z(), to.z()) < 0.8;
+  }
+  cutOpen(mesh, isCut);
+  std::vector<Index> stands(mesh.vertexCount());
+  std::iota(stands.begin(), stands.end(), Index{ 0 });
+  const auto boundary = boundaryHalfEdges(mesh);
+  const Index half = mesh.halfEdgeCount() / 2;
+  for (const Index h : boundary)
+  {
+    for (const Index g : boundary)
+    {
+      if (h < half && g >= half && mesh.position[mesh.origin[h]] == mesh.position[mesh.target(g)] &&
+        mesh.position[mesh.target(h)] == mesh.position[mesh.origin[g]])
+      {
+        mesh.twin.edit()[h] = g;
+        mesh.twin.edit()[g] = h;
+        stands[mesh.target(g)] = mesh.origin[h];
+        stands[mesh.origin[g]] = mesh.target(h);
+      }
+    }
+  }
+  Mesh joined;
+  std::vector<Index> newId(stands.size(), 0);
+  for (Index v = 0; v < stands.size(); ++v)
+  {
+    newId[v] = joined.vertexCount();
+    if (stands[v] == v)
+    {
+      joined.position.push_back(Vector3(mesh.position[v]));
+    }
+  }
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    joined.origin.push_back(Index{ newId[stands[mesh.origin[h]]] });
+  }
+  joined.twin = mesh.twin;
+  joined.flags.assign(mesh.halfEdgeCount(), 0);
+  return joined;
+}
+
+/// The loop round a slit leads along an edge and back: its cap has no area, and would be a face between sharp edges.
+TEST(CloseHandles, CapsWithoutAreaAreNoFaces)
+{
+  const Mesh mesh = cubesJoinedAtSlits();
+  ASSERT_EQ(validate(mesh), "");
+  ASSERT_EQ(summarizeTopology(mesh).eulerCharacteristic, 0);
+  PreparedSurface surface = test::prepare(test::toInput(mesh), kRightAngle / 2);
+  ASSERT_EQ(closeHandles(surface, placesOf(surface.mesh, 1.1), 2.2).size(), 1U);
+  EXPECT_EQ(validate(surface.mesh), "");
+  EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 2);
+  Mesh opened = surface.mesh;
+  cutOpenAtFeatures(opened);
+  Index count = 0;
+  const std::vector<Index> labels = faceComponents(opened, count);
+  std::vector<double> areas(count, 0);
+  for (Index f = 0; f < labels.size(); ++f)
+  {
+    areas[labels[f]] += surface.mesh.faceArea(f);
+  }
+  EXPECT_GT(*std::min_element(areas.begin(), areas.end()), 0.1);
 }
 
 TEST(CloseHandles, LoopsOfTheBoundaryAreNotCut)

@@ -197,6 +197,44 @@ TEST(FaceCurves, CurvesEndAtPointsOfTheirOwnLoop)
   EXPECT_EQ(atVertices, 4);
 }
 
+/// Both curves end nearest to the same point, and the next one is on the same side.
+TEST(FaceCurves, PointsThatAreLedToEndsStayInTheirOrder)
+{
+  Mesh mesh = test::gridPlane(4, 4);
+  std::vector<std::uint8_t> isGiven = none(mesh);
+  const std::vector<Vector3> places{ Vector3(2.4, 0, 0), Vector3(2.6, 0, 0), Vector3(3.5, 0, 0),
+    Vector3(4, 2.5, 0), Vector3(3.5, 4, 0), Vector3(2, 4, 0), Vector3(1, 4, 0),
+    Vector3(0, 2.5, 0) };
+  std::vector<CurvePoint> points(places.size());
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3 from = mesh.position[mesh.origin[h]], way = mesh.edgeVector(h);
+    const double x = from.x();
+    if (!mesh.isBoundary(h))
+    {
+      mesh.flags.edit()[h] |= (x == 1 || x == 2) && way.x() == 0 ? kFeatureEdge : 0;
+      continue;
+    }
+    isGiven[h] = 1;
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const double t = (places[i] - from).dot(way) / way.squaredNorm();
+      const bool isOn = t >= 0 && t < 1 && (from + t * way - places[i]).norm() < 1e-12;
+      points[i] = isOn ? CurvePoint{ h, t } : points[i];
+    }
+  }
+  FaceCurves curves(mesh, isGiven, 1);
+  curves.setGiven(points);
+  const auto placeOf = [&](std::size_t i) -> Vector3
+  { return positionOf(mesh, curves.given()[i].onSurface()); };
+  EXPECT_EQ(placeOf(0), Vector3(1, 0, 0));
+  EXPECT_EQ(placeOf(1), Vector3(2, 0, 0));
+  for (std::size_t i = 2; i < places.size(); ++i)
+  {
+    EXPECT_LT((placeOf(i) - places[i]).norm(), 1e-12);
+  }
+}
+
 TEST(FilledFaces, ACubeIsClosedAndSharp)
 {
   const Mesh mesh = test::markFeatures(test::unitCube(5), kThirtyDegrees);

@@ -10,12 +10,15 @@
 #include "StaggeredTube.h"
 #include "TestMeshes.h"
 
+#include "Mesh/NearestTriangle.h"
 #include "Mesh/Topology.h"
+#include "Quads/QuadShape.h"
 #include "Quads/QuadTopology.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -197,50 +200,175 @@ TEST(GivenUpFeatures, BordersWithRoomStay)
   EXPECT_EQ(yielding.quads.points, asked.quads.points);
 }
 
+/// A plate whose edges on some lines are features, with those of its faces cut out that a test names.
+struct CutPlate
+{
+  template <typename OnLine, typename IsOut>
+  CutPlate(const OnLine& isOnLine, const IsOut& isOut)
+  {
+    const Mesh mesh = test::gridPlane(8, 4);
+    SurfaceInput input = test::toInput(mesh);
+    for (Index f = 0; f < mesh.faceCount(); ++f)
+    {
+      std::uint8_t bits = 0;
+      for (Index i = 0; i < 3; ++i)
+      {
+        const Index h = 3 * f + i;
+        const bool isFeature =
+          isOnLine(mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)]);
+        bits = static_cast<std::uint8_t>(bits | (isFeature ? 1U << i : 0U));
+      }
+      input.featureEdges.push_back(bits);
+    }
+    PreparedSurface prepared = prepareSurface(input, {});
+    std::vector<Index> out;
+    for (Index f = 0; f < prepared.mesh.faceCount(); ++f)
+    {
+      if (isOut(prepared.mesh.middleOfFace(f)))
+      {
+        out.push_back(f);
+      }
+    }
+    SizedSurface whole;
+    whole.surface = std::make_shared<const PreparedSurface>(std::move(prepared));
+    whole.edgeLength = 1;
+    whole.targetQuads = 32;
+    cut = cutFaces(whole, { out, {} }, 1);
+  }
+
+  const Mesh& rest() const { return cut.rest->sized.surface->mesh; }
+
+  FilledPart fill(QuadMesh& quads) const
+  {
+    // In a triangle on the side of a quad of the point: the rest may meet itself there.
+    const NearestTriangle triangles(trianglesOf(rest()));
+    quads.sourceFace.resize(quads.points.size());
+    quads.sourceWeights.resize(quads.points.size());
+    for (const std::array<Index, 4>& quad : quads.quads)
+    {
+      const std::array<Vector3, 4> corners = cornersOf(quads.points, quad);
+      const Vector3 centre = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
+      for (const Index p : quad)
+      {
+        const std::vector<Index> at = triangles.within(quads.points[p], 1e-9);
+        const Index f = *std::min_element(at.begin(), at.end(),
+          [&](Index a, Index b) {
+            return (rest().middleOfFace(a) - centre).norm() <
+              (rest().middleOfFace(b) - centre).norm();
+          });
+        quads.sourceFace[p] = f;
+        quads.sourceWeights[p] = triangles.on(f, quads.points[p]).weights;
+      }
+    }
+    return fillCutFaces(cut, &rest(), &quads, 1);
+  }
+
+  CutFaces cut;
+};
+
 /// The left half of a plate is cut out. Quads of the right half have no points at the ends of the line between them,
 /// but near them on the outer boundary, which is none of the left half.
 TEST(FaceDivision, PointsBesideTheEndsOfTheCutAreLedThere)
 {
-  const Mesh mesh = test::gridPlane(8, 4);
-  const auto isOnLine = [&](Index h)
-  { return mesh.position[mesh.origin[h]].x() == 4 && mesh.position[mesh.target(h)].x() == 4; };
-  SurfaceInput input = test::toInput(mesh);
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    std::uint8_t bits = 0;
-    for (Index i = 0; i < 3; ++i)
-    {
-      bits = static_cast<std::uint8_t>(bits | (isOnLine(3 * f + i) ? 1U << i : 0U));
-    }
-    input.featureEdges.push_back(bits);
-  }
-  PreparedSurface prepared = prepareSurface(input, {});
-  std::vector<Index> left;
-  for (Index f = 0; f < prepared.mesh.faceCount(); ++f)
-  {
-    if (prepared.mesh.middleOfFace(f).x() < 4)
-    {
-      left.push_back(f);
-    }
-  }
-  SizedSurface whole;
-  whole.surface = std::make_shared<const PreparedSurface>(std::move(prepared));
-  whole.edgeLength = 1;
-  whole.targetQuads = 32;
-  const CutFaces cut = cutFaces(whole, { left, {} }, 1);
-  ASSERT_TRUE(cut.rest);
+  const CutPlate plate([](const Vector3& a, const Vector3& b) { return a.x() == 4 && b.x() == 4; },
+    [](const Vector3& middle) { return middle.x() < 4; });
+  ASSERT_TRUE(plate.cut.rest);
   QuadMesh quads;
   quads.points = { Vector3(4.1, 0, 0), Vector3(8, 0, 0), Vector3(8, 1.4, 0), Vector3(4, 1.4, 0),
     Vector3(8, 2.7, 0), Vector3(4, 2.7, 0), Vector3(8, 4, 0), Vector3(4.2, 4, 0) };
   quads.quads = { { 0, 1, 2, 3 }, { 3, 2, 4, 5 }, { 5, 4, 6, 7 } };
-  const Mesh& restMesh = cut.rest->sized.surface->mesh;
-  const FilledPart filled = fillCutFaces(cut, &restMesh, &quads, 1);
+  const FilledPart filled = plate.fill(quads);
   EXPECT_TRUE(filled.failedAt.empty());
   ASSERT_EQ(filled.points, std::vector<Index>({ 0, 3, 5, 7 }));
   EXPECT_EQ(filled.quads.points[0], Vector3(4, 0, 0));
   EXPECT_LT((filled.quads.points[1] - quads.points[3]).norm(), 1e-9);
   EXPECT_LT((filled.quads.points[2] - quads.points[5]).norm(), 1e-9);
   EXPECT_EQ(filled.quads.points[3], Vector3(4, 4, 0));
+}
+
+/// Two lines cross, and two faces opposite each other are cut out. The rest has the crossing twice.
+class CrossedPlate : public ::testing::Test
+{
+protected:
+  CrossedPlate()
+    : plate_([](const Vector3& a, const Vector3& b)
+        { return (a.x() == 4 && b.x() == 4) || (a.y() == 2 && b.y() == 2); },
+        [](const Vector3& middle) { return (middle.x() < 4) == (middle.y() < 2); })
+  {
+  }
+
+  /// Two rows of quads, at their own points.
+  void addRows(const Vector3& corner, const std::vector<double>& at)
+  {
+    const auto first = static_cast<Index>(quads_.points.size()),
+               row = static_cast<Index>(at.size());
+    for (const double y : { 0.0, 1.0, 2.0 })
+    {
+      for (const double x : at)
+      {
+        quads_.points.push_back(corner + Vector3(x, y, 0));
+      }
+    }
+    for (Index i = 0; i + 1 < 3 * row; ++i)
+    {
+      if (i % row + 1 < row && i < 2 * row)
+      {
+        const Index p = first + i;
+        quads_.quads.push_back({ p, p + 1, p + row + 1, p + row });
+      }
+    }
+  }
+
+  CutPlate plate_;
+  QuadMesh quads_;
+};
+
+TEST_F(CrossedPlate, TheCrossingIsOnePoint)
+{
+  ASSERT_TRUE(plate_.cut.rest);
+  addRows(Vector3(4, 0, 0), { 0, 1, 2, 3, 4 });
+  addRows(Vector3(0, 2, 0), { 0, 1, 2, 3, 4 });
+  const auto rest = static_cast<Index>(quads_.points.size());
+  const FilledPart filled = plate_.fill(quads_);
+  ASSERT_TRUE(filled.failedAt.empty()) << filled.failedAt[0].transpose();
+  ASSERT_EQ(filled.same.size(), 1U);
+  EXPECT_EQ(quads_.points[filled.same[0][0]], Vector3(4, 2, 0));
+  EXPECT_EQ(quads_.points[filled.same[0][1]], Vector3(4, 2, 0));
+  std::vector<std::array<Index, 4>> all = quads_.quads;
+  const auto stands = [&](Index p) { return p == filled.same[0][0] ? filled.same[0][1] : p; };
+  for (std::array<Index, 4>& quad : all)
+  {
+    std::transform(quad.begin(), quad.end(), quad.begin(), stands);
+  }
+  for (std::array<Index, 4> quad : filled.quads.quads)
+  {
+    for (Index& p : quad)
+    {
+      p = p < filled.points.size() ? stands(filled.points[p]) : rest + p;
+    }
+    all.push_back(quad);
+  }
+  const QuadTopology topology = analyzeQuads(all, rest + filled.quads.points.size());
+  EXPECT_EQ(topology.nonManifoldEdges, 0U) << topology.text();
+  EXPECT_EQ(topology.nonManifoldVertices, 0U) << topology.text();
+  EXPECT_EQ(topology.components, 1U);
+  EXPECT_EQ(topology.eulerCharacteristic, 1);
+}
+
+/// Quads of the rest that pass the crossing without a point there leave the faces nothing to meet in.
+TEST_F(CrossedPlate, PointsOnOneSideOfACrossingAreTold)
+{
+  ASSERT_TRUE(plate_.cut.rest);
+  addRows(Vector3(4, 0, 0), { 0, 1, 2, 3, 4 });
+  quads_.points.insert(quads_.points.end(),
+    { Vector3(0, 2, 0), Vector3(3.5, 2, 0), Vector3(4, 2.5, 0), Vector3(4, 4, 0), Vector3(0, 4, 0),
+      Vector3(0, 3, 0), Vector3(2, 3, 0) });
+  quads_.quads.push_back({ 15, 16, 21, 20 });
+  quads_.quads.push_back({ 16, 17, 18, 21 });
+  quads_.quads.push_back({ 20, 21, 18, 19 });
+  const FilledPart filled = plate_.fill(quads_);
+  ASSERT_FALSE(filled.failedAt.empty());
+  EXPECT_EQ(filled.failedAt[0], Vector3(4, 2, 0));
 }
 
 } // namespace
