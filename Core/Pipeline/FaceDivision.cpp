@@ -627,6 +627,7 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
     rest.curves = std::move(parts[1].curves);
     SizedSurface& sized = rest.sized;
     sized.edgeLength = whole.edgeLength;
+    sized.hasBeside = true;
     sized.targetQuads = static_cast<std::size_t>(
       std::max(1.0, std::round(rest.share * static_cast<double>(whole.targetQuads))));
     sized.key = KeyMaker(whole.key).add(parts[1].surface.hash).key();
