@@ -593,7 +593,7 @@ CadFile readHere(const std::string& path, CadFormat format, const CadReadOptions
 /// Ten times what parts take that are slow to read.
 double timeLimitOf(const std::string& path)
 {
-  constexpr double kLeast = 20, kOfMegabyte = 30;
+  constexpr double kLeast = 20, kOfMegabyte = 10;
   std::error_code code;
   const auto size = static_cast<double>(std::filesystem::file_size(path, code));
   return code ? kLeast : kLeast + kOfMegabyte * size / 1e6;

@@ -42,7 +42,7 @@ constexpr const char* kUnnamedFace = "FACE_";
 struct CadReadOptions
 {
   double timeLimit =
-    0; ///< seconds after which a file is refused; 0: 20, and 30 more for each megabyte that it has
+    0; ///< seconds after which a file is refused; 0: 20, and 10 more for each megabyte that it has
   /// Whether all parts become one. Names of faces, edges and vertices begin with that of their part then, where there
   /// are several: "plate/top"; faces without a name are "plate/FACE_1" and so on.
   bool joined = false;

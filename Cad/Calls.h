@@ -26,7 +26,8 @@ struct CadCalls
   std::vector<std::uint8_t> (*bytesOfShape)(const CadShape& shape); ///< CadShape::bytes
   CadSurface (*tessellate)(const CadShape& shape, const TessellationOptions& options);
   std::vector<CadPlace> (*placeOnShape)(const CadShape& shape, const CadSurface& surface,
-    const std::vector<Vector3>& points, const PlacementOptions& options);
+    const std::vector<Vector3>& points, const PlacementOptions& options,
+    const std::vector<Index>& faces);
   TakenVertices (*takeVertices)(const CadShape& shape, const CadSurface& surface,
     const std::vector<std::array<Index, 4>>& quads, std::vector<CadPlace>& places);
   void (*keepQuads)(const std::vector<std::array<Index, 4>>& quads,

@@ -13,16 +13,18 @@ PlacedQuads placeQuads(const CadShape& shape, const TessellationOptions& tessell
   const CadCalls& cad = cadCalls();
   const CadSurface surface = cad.tessellate(shape, tessellation);
   PlacedQuads result;
-  result.places = cad.placeOnShape(shape, surface, quads.points, options);
+  result.places = cad.placeOnShape(shape, surface, quads.points, options, quads.faces);
   if (quads.isFirstOrder) // else nodes between the corners would have to follow
   {
     const TakenVertices taken = cad.takeVertices(shape, surface, quads.corners, result.places);
     std::vector<Vector3> beside;
+    std::vector<Index> faces;
     for (const Index node : taken.beside)
     {
       beside.push_back(result.places[node].point);
+      faces.push_back(quads.faces.empty() ? kInvalidIndex : quads.faces[node]);
     }
-    const std::vector<CadPlace> again = cad.placeOnShape(shape, surface, beside, options);
+    const std::vector<CadPlace> again = cad.placeOnShape(shape, surface, beside, options, faces);
     for (std::size_t i = 0; i < again.size(); ++i)
     {
       result.places[taken.beside[i]] = again[i];

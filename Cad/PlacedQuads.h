@@ -16,6 +16,8 @@ struct CadQuads
   std::vector<Vector3> points;
   std::vector<std::array<Index, 4>> corners; ///< of elements of second order those at the corners
   bool isFirstOrder = true;                  ///< else no node moves along an edge to a vertex
+  /// #points, or empty: a face of the part that the point is of, see placeOnShape.
+  std::vector<Index> faces;
 };
 
 struct PlacedQuads

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Cad/Placement.h"
 
+#include "Base/DisjointSets.h"
 #include "Base/Refuse.h"
 #include "Cad/Curvatures.h"
 #include "Cad/Guarded.h"
@@ -20,8 +21,10 @@
 #include <TopoDS_Vertex.hxx>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -218,11 +221,52 @@ struct EdgeSegments
     {
       if (points[i] != points[i + 1])
       {
-        list.corners.push_back({ points[i], points[i + 1], points[i + 1] });
+        const auto first = static_cast<Index>(list.points.size());
+        list.points.push_back(surface.points[points[i]]);
+        list.points.push_back(surface.points[points[i + 1]]);
+        list.corners.push_back({ first, first + 1, first + 1 });
         places.emplace_back(edge, static_cast<Index>(i));
       }
     }
   }
+};
+
+/// What points of one part, or of any, may belong to.
+struct Candidates
+{
+  std::vector<Index> triangles; ///< of those in `faces`
+  std::unique_ptr<NearestTriangle> faces;
+  EdgeSegments segments;
+  std::unique_ptr<NearestTriangle> lines; ///< null where the part has no edges that points go onto
+};
+
+/// The faces that hang together, and with them their points.
+class Parts
+{
+public:
+  explicit Parts(const CadSurface& surface)
+    : sets_(surface.points.size(), 1), pointOfFace_(surface.surfaceKinds.size(), kInvalidIndex)
+  {
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    {
+      const auto& [a, b, c] = surface.triangles[t];
+      sets_.join(a, b);
+      sets_.join(b, c);
+      pointOfFace_[surface.faceOf[t]] = a;
+    }
+  }
+
+  Index ofPoint(Index point) { return sets_.find(point); }
+  /// kInvalidIndex where the face has no triangles.
+  Index ofFace(Index face)
+  {
+    const Index point = face < pointOfFace_.size() ? pointOfFace_[face] : kInvalidIndex;
+    return point == kInvalidIndex ? kInvalidIndex : ofPoint(point);
+  }
+
+private:
+  DisjointSets sets_;
+  std::vector<Index> pointOfFace_;
 };
 
 class Placer
@@ -232,43 +276,32 @@ public:
     : data_(data), surface_(surface), onEdge_(options.onEdge * data.diagonal),
       reach_(options.reach > 0 ? options.reach * data.diagonal : surface.chordError),
       faces_(static_cast<std::size_t>(data.faces.Extent())),
-      curves_(static_cast<std::size_t>(data.edges.Extent())),
-      triangles_(TriangleList{ surface.points, surface.triangles })
+      curves_(static_cast<std::size_t>(data.edges.Extent())), tangentEdges_(options.tangentEdges),
+      parts_(surface)
   {
-    segments_.list.points = surface.points;
-    for (Index e = 0; e < surface.edges.size(); ++e)
-    {
-      const CadEdgeKind kind = surface.edges[e].kind;
-      if (kind == CadEdgeKind::Sharp || kind == CadEdgeKind::Free ||
-        (kind == CadEdgeKind::Tangent && options.tangentEdges))
-      {
-        segments_.add(surface, e);
-      }
-    }
-    if (!segments_.places.empty())
-    {
-      lines_ = std::make_unique<NearestTriangle>(segments_.list);
-    }
   }
 
-  CadPlace place(const Vector3& p)
+  /// face: of the part that the point is of; kInvalidIndex for any.
+  CadPlace place(const Vector3& p, Index face)
   {
     CadPlace none;
     none.point = p;
-    const auto nearest = triangles_.at(p, Vector3::Zero(), reach_);
+    const Candidates& candidates = candidatesOf(parts_.ofFace(face));
+    const auto nearest = candidates.faces->at(p, Vector3::Zero(), reach_);
     if (!p.allFinite() || !nearest)
     {
       return none;
     }
     CadPlace found = none;
-    found.face = surface_.faceOf[nearest->triangle];
+    const Index triangle = candidates.triangles[nearest->triangle];
+    found.face = surface_.faceOf[triangle];
     Vector2 uv = Vector2::Zero();
     for (std::size_t k = 0; k < 3; ++k)
     {
-      uv += nearest->weights[k] * surface_.parameters[nearest->triangle][k];
+      uv += nearest->weights[k] * surface_.parameters[triangle][k];
     }
     uv = faceOf(found.face).nearest(p, uv, data_.diagonal);
-    if (!placeOnLine(p, found) && !placeOnFace(p, uv, found))
+    if (!placeOnLine(p, candidates, found) && !placeOnFace(p, uv, found))
     {
       placeOnBorder(p, found);
     }
@@ -285,6 +318,49 @@ public:
   }
 
 private:
+  /// part: kInvalidIndex for all parts.
+  const Candidates& candidatesOf(Index part)
+  {
+    const auto [at, isNew] = candidates_.try_emplace(part);
+    Candidates& of = at->second;
+    if (!isNew)
+    {
+      return of;
+    }
+    const auto isOf = [&](Index point)
+    { return part == kInvalidIndex || parts_.ofPoint(point) == part; };
+    TriangleList list;
+    for (Index t = 0; t < surface_.triangles.size(); ++t)
+    {
+      if (isOf(surface_.triangles[t][0]))
+      {
+        of.triangles.push_back(t);
+        std::array<Index, 3>& corners = list.corners.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          corners[k] = static_cast<Index>(list.points.size());
+          list.points.push_back(surface_.points[surface_.triangles[t][k]]);
+        }
+      }
+    }
+    of.faces = std::make_unique<NearestTriangle>(std::move(list));
+    for (Index e = 0; e < surface_.edges.size(); ++e)
+    {
+      const CadEdgeKind kind = surface_.edges[e].kind;
+      const bool isLine = kind == CadEdgeKind::Sharp || kind == CadEdgeKind::Free ||
+        (kind == CadEdgeKind::Tangent && tangentEdges_);
+      if (isLine && isOf(surface_.edges[e].points.front()))
+      {
+        of.segments.add(surface_, e);
+      }
+    }
+    if (!of.segments.places.empty())
+    {
+      of.lines = std::make_unique<NearestTriangle>(of.segments.list);
+    }
+    return of;
+  }
+
   const ExactFace& faceOf(Index id)
   {
     if (!faces_[id])
@@ -341,14 +417,15 @@ private:
       curveOf(edge).nearest(p, (1 - weight) * t[segment] + weight * t[segment + 1], data_.diagonal);
   }
 
-  bool placeOnLine(const Vector3& p, CadPlace& found)
+  bool placeOnLine(const Vector3& p, const Candidates& candidates, CadPlace& found)
   {
-    const auto nearest = lines_ ? lines_->at(p, Vector3::Zero(), onEdge_) : std::nullopt;
+    const auto nearest =
+      candidates.lines ? candidates.lines->at(p, Vector3::Zero(), onEdge_) : std::nullopt;
     if (!nearest)
     {
       return false;
     }
-    const auto [edge, segment] = segments_.places[nearest->triangle];
+    const auto [edge, segment] = candidates.segments.places[nearest->triangle];
     placeOnEdge(p, edge, segment, nearest->weights[1] + nearest->weights[2], found);
     return true;
   }
@@ -385,8 +462,8 @@ private:
     double weight = 0;
     for (std::size_t i = 0; i < border.places.size(); ++i)
     {
-      const Vector3& a = surface_.points[border.list.corners[i][0]];
-      const Vector3 ab = surface_.points[border.list.corners[i][1]] - a;
+      const Vector3& a = border.list.points[border.list.corners[i][0]];
+      const Vector3 ab = border.list.points[border.list.corners[i][1]] - a;
       const double at = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
       const double distance = (a + at * ab - p).norm();
       if (distance < least)
@@ -405,15 +482,16 @@ private:
   const double reach_;
   std::vector<std::unique_ptr<ExactFace>> faces_;
   std::vector<std::unique_ptr<ExactCurve>> curves_;
-  NearestTriangle triangles_;
-  EdgeSegments segments_;
-  std::unique_ptr<NearestTriangle> lines_;
+  const bool tangentEdges_;
+  Parts parts_;
+  std::map<Index, Candidates> candidates_; ///< by part
 };
 
 } // namespace
 
 std::vector<CadPlace> placeOnShape(const CadShape& shape, const CadSurface& surface,
-  const std::vector<Vector3>& points, const PlacementOptions& options)
+  const std::vector<Vector3>& points, const PlacementOptions& options,
+  const std::vector<Index>& faces)
 {
   refuseIf(shape.empty() || surface.edges.size() != shape.edgeCount(),
     "the triangles are not those of the shape: tessellate it");
@@ -424,7 +502,7 @@ std::vector<CadPlace> placeOnShape(const CadShape& shape, const CadSurface& surf
       Placer placer(*shape.data(), surface, options);
       for (std::size_t i = 0; i < points.size(); ++i)
       {
-        places[i] = placer.place(points[i]);
+        places[i] = placer.place(points[i], faces.empty() ? kInvalidIndex : faces[i]);
       }
     });
   return places;

@@ -48,8 +48,10 @@ struct PlacementOptions
 /// Each point goes to the nearest place of what it belongs to: the vertex it lies on, else the sharp or free edge whose
 /// polyline it lies on, else the face of the nearest triangle. Newton starts at the parameters of the tessellation. A
 /// place beyond the border of its face goes onto the nearest edge of that face.
-/// surface: of tessellate(shape), with any options.
+/// surface: of tessellate(shape), with any options. faces: #points, or empty: a face of the part that the point is of;
+/// parts that touch lie at one place, and faces of one part hang together. kInvalidIndex, or empty: any part.
 std::vector<CadPlace> placeOnShape(const CadShape& shape, const CadSurface& surface,
-  const std::vector<Vector3>& points, const PlacementOptions& options = {});
+  const std::vector<Vector3>& points, const PlacementOptions& options = {},
+  const std::vector<Index>& faces = {});
 
 } // namespace quadrille

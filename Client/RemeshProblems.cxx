@@ -5,8 +5,11 @@
 #include "FetchedData.h"
 
 #include "vtkCamera.h"
+#include "vtkIdList.h"
 #include "vtkMath.h"
+#include "vtkNew.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkPolygon.h"
 #include "vtkSMIntVectorProperty.h"
@@ -24,9 +27,15 @@ namespace quadrille
 namespace
 {
 
-constexpr int kQuads = 0; // outputs of Quad Remesh
-constexpr int kProblems = 8;
+constexpr int kQuads = 0;
+constexpr vtkIdType kCorners = 4;
 constexpr double kEdgesSeen = 12; // across the view, so that each of them is clearly seen
+
+/// The output Problems.
+int problemPort(vtkSMSourceProxy* filter)
+{
+  return static_cast<int>(filter->GetOutputPortIndex("Problems"));
+}
 
 Place sum(const Place& a, const Place& b, double share)
 {
@@ -48,14 +57,16 @@ struct Polygon
 std::vector<Polygon> polygonsOf(vtkSMSourceProxy* filter, int port)
 {
   std::vector<Polygon> polygons;
-  forEach<vtkPolyData>(fetched(filter, port),
-    [&polygons](vtkPolyData& data)
+  vtkNew<vtkIdList> ids;
+  forEach<vtkPointSet>(fetched(filter, port),
+    [&polygons, &ids](vtkPointSet& data)
     {
       for (vtkIdType i = 0; i < data.GetNumberOfCells(); ++i)
       {
-        const vtkIdType* ids = nullptr;
-        vtkIdType size = 0;
-        data.GetCellPoints(i, size, ids);
+        data.GetCellPoints(i, ids);
+        // Of elements of second order the corners come first.
+        const vtkIdType size = data.IsA("vtkPolyData") ? ids->GetNumberOfIds()
+                                                       : std::min(ids->GetNumberOfIds(), kCorners);
         if (size < 3)
         {
           continue;
@@ -64,7 +75,7 @@ std::vector<Polygon> polygonsOf(vtkSMSourceProxy* filter, int port)
         std::vector<Place> corners(static_cast<std::size_t>(size));
         for (std::size_t c = 0; c < corners.size(); ++c)
         {
-          data.GetPoint(ids[c], corners[c].data());
+          data.GetPoint(ids->GetId(static_cast<vtkIdType>(c)), corners[c].data());
           polygon.middle = sum(polygon.middle, corners[c], 1.0 / static_cast<double>(size));
         }
         for (std::size_t c = 0; c < corners.size(); ++c)
@@ -162,13 +173,13 @@ void apply(vtkSMSourceProxy* filter, const Remedy& remedy)
 bool hasProblems(vtkSMSourceProxy* filter)
 {
   return filter->GetOutputPortsCreated() &&
-    filter->GetDataInformation(kProblems)->GetNumberOfCells() > 0;
+    filter->GetDataInformation(problemPort(filter))->GetNumberOfCells() > 0;
 }
 
 std::vector<ProblemPlace> problemPlaces(vtkSMSourceProxy* filter)
 {
-  std::vector<Polygon> polygons = polygonsOf(filter, kProblems);
-  std::vector<Place> places = verticesOf(filter, kProblems);
+  std::vector<Polygon> polygons = polygonsOf(filter, problemPort(filter));
+  std::vector<Place> places = verticesOf(filter, problemPort(filter));
   if (places.empty() && !polygons.empty())
   {
     places.push_back(polygons[polygons.size() / 2].middle);

@@ -30,7 +30,7 @@ std::optional<Remedy> remedyOf(vtkSMSourceProxy* filter);
 /// Sets the property, also for the trace.
 void apply(vtkSMSourceProxy* filter, const Remedy& remedy);
 
-/// Whether the last execution left something in the output Problems.
+/// Whether the last execution left something in the output Problems of Quad Remesh or Quad Nodes On CAD Geometry.
 bool hasProblems(vtkSMSourceProxy* filter);
 
 /// A place of which the output Problems tells, and the direction out of the surface there.

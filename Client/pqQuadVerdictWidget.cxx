@@ -85,8 +85,11 @@ pqQuadVerdictWidget::pqQuadVerdictWidget(
   QObject::connect(this->Apply, &QPushButton::clicked, this, &pqQuadVerdictWidget::applyRemedy);
   for (vtkSMProperty* property : { verdict, filter->GetProperty("Remedy") })
   {
-    pqCoreUtilities::connect(
-      property, vtkCommand::ModifiedEvent, this, SLOT(refresh()), Qt::QueuedConnection);
+    if (property) // quads of a CAD file have no remedy
+    {
+      pqCoreUtilities::connect(
+        property, vtkCommand::ModifiedEvent, this, SLOT(refresh()), Qt::QueuedConnection);
+    }
   }
   this->refresh();
 }
@@ -152,7 +155,8 @@ void pqQuadVerdictWidget::refresh()
     : !textOf(this->proxy(), "OutcomeText").isEmpty() ? Mood::Failed
     : isWrong                                         ? Mood::Doubtful
                                                       : Mood::Well;
-  this->Text->setText(text.isEmpty() ? QString("Apply makes the quads.") : firstLineOf(text));
+  this->Text->setText(
+    text.isEmpty() ? QString("Apply tells here what it made.") : firstLineOf(text));
   this->Text->setToolTip(text);
   this->Text->setStyleSheet(styleOf(mood));
   this->Show->setVisible(isWrong);

@@ -2,16 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadrilleWidgets.h"
 
-#include "RemeshConstraints.h"
 #include "pqQuadVerdictWidget.h"
 
 #include "vtkSMProperty.h"
 #include "vtkSMProxy.h"
 
+#include <string>
+
 pqPropertyWidget* pqQuadrilleWidgets::createWidgetForProperty(
   vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
 {
-  return quadrille::isQuadRemesh(proxy) && property == proxy->GetProperty("Verdict")
+  const std::string name = proxy->GetXMLName() ? proxy->GetXMLName() : "";
+  const bool hasVerdict = name == "QuadRemesh" || name == "QuadCADProjection";
+  return hasVerdict && property == proxy->GetProperty("Verdict")
     ? new pqQuadVerdictWidget(proxy, property, parent)
     : nullptr;
 }

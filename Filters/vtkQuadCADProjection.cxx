@@ -7,6 +7,10 @@
 #include "Files/CadData.h"
 #include "Files/CadNames.h"
 
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
@@ -19,6 +23,8 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -69,6 +75,29 @@ std::vector<std::array<quadrille::Index, 4>> cornersOf(vtkPointSet* data)
   return quads;
 }
 
+/// Of each point a face of the part that it is of: that of one of its cells; empty where these do not know it.
+std::vector<quadrille::Index> facesOf(vtkPointSet* data)
+{
+  const auto* ids =
+    vtkIntArray::SafeDownCast(data->GetCellData()->GetArray(quadrille::arrays::kCadFaceId));
+  if (!ids)
+  {
+    return {};
+  }
+  std::vector<quadrille::Index> faces(
+    static_cast<std::size_t>(data->GetNumberOfPoints()), quadrille::kInvalidIndex);
+  vtkNew<vtkIdList> points;
+  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+  {
+    data->GetCellPoints(c, points);
+    for (const vtkIdType point : *points)
+    {
+      faces[static_cast<std::size_t>(point)] = static_cast<quadrille::Index>(ids->GetValue(c));
+    }
+  }
+  return faces;
+}
+
 bool isFirstOrder(vtkPointSet* data)
 {
   return data->GetMaxCellSize() <= 4;
@@ -102,37 +131,113 @@ void writePlaces(const std::vector<CadPlace>& places, vtkPointSet* output)
   output->GetPointData()->AddArray(curvatures);
 }
 
-std::string noticeOfVertices(const quadrille::PlacedQuads& placed)
+/// place: of the first one.
+std::string noticeOfCorners(vtkIdType count, const std::string& place)
 {
-  const std::size_t count = placed.verticesWithout.size();
   if (count == 0)
   {
     return "";
   }
-  const Vector3& at = placed.verticesWithoutAt.front();
   std::ostringstream text;
   text << count << (count == 1 ? " corner" : " corners")
        << " of CAD edges longer than two edge lengths " << (count == 1 ? "has" : "have")
-       << " no node, " << (count == 1 ? "that" : "the first") << " at (" << at.x() << ", " << at.y()
-       << ", " << at.z() << "): quads of this size have no room for it, smaller ones there have";
+       << " no node, " << (count == 1 ? "that" : "the first") << " at " << place
+       << ": quads of this size have no room for it, smaller ones there have";
   return text.str();
+}
+
+enum CadProblem
+{
+  kCornerWithoutNode,
+  kNodeStays
+};
+
+void addProblem(const Vector3& place, CadProblem problem, vtkPolyData* problems)
+{
+  const vtkIdType point = problems->GetPoints()->InsertNextPoint(place.data());
+  problems->GetVerts()->InsertNextCell(1, &point);
+  vtkIntArray::SafeDownCast(problems->GetCellData()->GetScalars())->InsertNextValue(problem);
+}
+
+void addProblems(const quadrille::PlacedQuads& placed, vtkPolyData* problems)
+{
+  for (const Vector3& place : placed.verticesWithoutAt)
+  {
+    addProblem(place, kCornerWithoutNode, problems);
+  }
+  for (const CadPlace& place : placed.places)
+  {
+    if (place.kind == CadPlaceKind::None)
+    {
+      addProblem(place.point, kNodeStays, problems);
+    }
+  }
+}
+
+/// With nothing in it yet.
+void beginProblems(vtkPolyData* problems)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  problems->SetPoints(points);
+  problems->SetVerts(vtkNew<vtkCellArray>());
+  problems->GetCellData()->SetScalars(quadrille::newArray<vtkIntArray>("CadProblem"));
+}
+
+void addCount(const char* name, vtkIdType count, vtkFieldData* fields)
+{
+  const auto array = quadrille::newArray<vtkIdTypeArray>(name, 1, 1);
+  array->SetValue(0, count);
+  fields->AddArray(array);
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkQuadCADProjection::vtkQuadCADProjection() = default;
+vtkQuadCADProjection::vtkQuadCADProjection()
+{
+  this->SetNumberOfOutputPorts(2);
+}
+
 vtkQuadCADProjection::~vtkQuadCADProjection() = default;
 
 //------------------------------------------------------------------------------
 int vtkQuadCADProjection::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadCADProjection::Project(vtkPointSet* input, vtkPointSet* output)
+int vtkQuadCADProjection::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkDataObject" : "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadCADProjection::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+  if (input && (!output || !output->IsA(input->GetClassName())))
+  {
+    outputs->GetInformationObject(0)->Set(
+      vtkDataObject::DATA_OBJECT(), vtk::TakeSmartPointer(input->NewInstance()));
+  }
+  if (!vtkPolyData::GetData(outputs, 1))
+  {
+    outputs->GetInformationObject(1)->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkPolyData>());
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadCADProjection::Project(
+  vtkPointSet* input, const std::string& name, vtkPointSet* output, vtkPolyData* problems)
 {
   output->ShallowCopy(input);
   const quadrille::CadSource source = quadrille::cadSource(input->GetFieldData());
@@ -140,24 +245,31 @@ void vtkQuadCADProjection::Project(vtkPointSet* input, vtkPointSet* output)
   options.reach = this->Reach;
   options.tangentEdges = source.tangentEdges;
   const quadrille::PlacedQuads placed = quadrille::placeQuads(source.shape, source.options,
-    { pointsOf(input), cornersOf(input), isFirstOrder(input) }, options);
+    { pointsOf(input), cornersOf(input), isFirstOrder(input), facesOf(input) }, options);
   const std::vector<CadPlace>& places = placed.places;
-  this->NoticesText = noticeOfVertices(placed);
   writePlaces(places, output);
-  this->NodesOnGeometry = 0;
-  for (const CadPlace& place : places)
+  addProblems(placed, problems);
+  const vtkIdType off = std::count_if(places.begin(), places.end(),
+    [](const CadPlace& place) { return place.kind == CadPlaceKind::None; });
+  const vtkIdType on = static_cast<vtkIdType>(places.size()) - off;
+  this->NodesOnGeometry += on;
+  this->NodesOffGeometry += off;
+  if (!placed.verticesWithout.empty())
   {
-    this->NodesOnGeometry += place.kind == CadPlaceKind::None ? 0 : 1;
+    if (this->CornersWithoutNode == 0)
+    {
+      const Vector3& at = placed.verticesWithoutAt.front();
+      std::ostringstream place;
+      place << "(" << at.x() << ", " << at.y() << ", " << at.z() << ")"
+            << (name.empty() ? "" : " of " + name);
+      this->FirstCornerWithout = place.str();
+    }
+    this->CornersWithoutNode += static_cast<vtkIdType>(placed.verticesWithout.size());
   }
-  this->NodesOffGeometry = static_cast<vtkIdType>(places.size()) - this->NodesOnGeometry;
   vtkNew<vtkFieldData> fields; // of its own, whatever a shallow copy shares
   fields->ShallowCopy(input->GetFieldData());
-  const auto on = quadrille::newArray<vtkIdTypeArray>("NodesOnGeometry", 1, 1);
-  const auto off = quadrille::newArray<vtkIdTypeArray>("NodesOffGeometry", 1, 1);
-  on->SetValue(0, this->NodesOnGeometry);
-  off->SetValue(0, this->NodesOffGeometry);
-  fields->AddArray(on);
-  fields->AddArray(off);
+  addCount("NodesOnGeometry", on, fields);
+  addCount("NodesOffGeometry", off, fields);
   fields->RemoveArray(kWithoutNode);
   if (const std::size_t without = placed.verticesWithout.size(); without > 0)
   {
@@ -170,15 +282,71 @@ void vtkQuadCADProjection::Project(vtkPointSet* input, vtkPointSet* output)
 }
 
 //------------------------------------------------------------------------------
+void vtkQuadCADProjection::Execute(
+  vtkDataObject* input, vtkDataObject* output, vtkPolyData* problems)
+{
+  output->ShallowCopy(input);
+  auto* quads = vtkPointSet::SafeDownCast(input);
+  if (quads && quads->GetNumberOfPoints() > 0) // a rank may have none
+  {
+    this->Project(quads, "", vtkPointSet::SafeDownCast(output), problems);
+  }
+  if (quads)
+  {
+    return;
+  }
+  auto* results = vtkCompositeDataSet::SafeDownCast(output);
+  const auto at = vtk::TakeSmartPointer(vtkCompositeDataSet::SafeDownCast(input)->NewIterator());
+  for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
+  {
+    auto* leaf = vtkPointSet::SafeDownCast(at->GetCurrentDataObject());
+    if (leaf && leaf->GetNumberOfPoints() > 0)
+    {
+      const char* name = at->HasCurrentMetaData()
+        ? at->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME())
+        : nullptr;
+      const auto placed = vtk::TakeSmartPointer(leaf->NewInstance());
+      this->Project(leaf, name ? name : "", placed, problems);
+      results->SetDataSet(at, placed);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadCADProjection::SetTexts()
+{
+  const vtkIdType on = this->NodesOnGeometry, off = this->NodesOffGeometry;
+  std::ostringstream text;
+  if (off == 0)
+  {
+    text << "All " << on << " nodes lie on the exact shape";
+  }
+  else
+  {
+    text << off << " of " << on + off << " nodes " << (off == 1 ? "stays" : "stay")
+         << " on the triangles, as no place of the exact shape is near, or a quad would be turned "
+            "over there";
+  }
+  this->NoticesText = noticeOfCorners(this->CornersWithoutNode, this->FirstCornerWithout);
+  this->Verdict = text.str() + (this->NoticesText.empty() ? "" : "; " + this->NoticesText);
+}
+
+//------------------------------------------------------------------------------
 int vtkQuadCADProjection::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->OutcomeText.clear();
   this->NoticesText.clear();
-  vtkPointSet* output = vtkPointSet::GetData(outputs, 0);
+  this->NodesOnGeometry = 0;
+  this->NodesOffGeometry = 0;
+  this->CornersWithoutNode = 0;
+  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+  vtkPolyData* problems = vtkPolyData::GetData(outputs, 1);
+  beginProblems(problems);
   try
   {
-    this->Project(vtkPointSet::GetData(inputs[0], 0), output);
+    this->Execute(vtkDataObject::GetData(inputs[0], 0), output, problems);
+    this->SetTexts();
     return 1;
   }
   catch (const std::bad_alloc&)
@@ -189,7 +357,9 @@ int vtkQuadCADProjection::RequestData(
   {
     this->OutcomeText = error.what();
   }
+  this->Verdict = "Failed: " + this->OutcomeText;
   output->Initialize();
+  problems->Initialize();
   vtkErrorMacro(<< this->OutcomeText);
   return 0;
 }
@@ -203,4 +373,5 @@ void vtkQuadCADProjection::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NodesOffGeometry: " << this->NodesOffGeometry << "\n";
   os << indent << "NoticesText: " << this->NoticesText << "\n";
   os << indent << "OutcomeText: " << this->OutcomeText << "\n";
+  os << indent << "Verdict: " << this->Verdict << "\n";
 }

@@ -29,6 +29,7 @@ struct vtkQuadrilleCADReader::Parts
   quadrille::CadFile file;
   quadrille::CadReadOptions options;
   std::string stamp;
+  vtkMTimeType failedAt = 0; ///< of the reader, which reads again when it is modified
 };
 
 //------------------------------------------------------------------------------
@@ -88,11 +89,14 @@ std::string vtkQuadrilleCADReader::StampOfFile() const
 void vtkQuadrilleCADReader::Read()
 {
   const std::string stamp = this->StampOfFile();
-  if (this->Found->stamp == stamp)
+  const bool isTried = this->Found->stamp == stamp &&
+    (this->OutcomeText.empty() || this->Found->failedAt == this->GetMTime());
+  if (isTried)
   {
     return;
   }
   *this->Found = Parts();
+  this->Found->stamp = stamp;
   this->NoticesText.clear();
   this->OutcomeText.clear();
   quadrille::CadReadOptions& options = this->Found->options;
@@ -107,7 +111,6 @@ void vtkQuadrilleCADReader::Read()
       throw quadrille::InvalidInput("no file is named: set FileName");
     }
     this->Found->file = quadrille::cadCalls().readCadFile(this->FileName, options);
-    this->Found->stamp = stamp;
   }
   catch (const std::bad_alloc&)
   {
@@ -117,6 +120,7 @@ void vtkQuadrilleCADReader::Read()
   {
     this->OutcomeText = error.what();
   }
+  this->Found->failedAt = this->OutcomeText.empty() ? 0 : this->GetMTime();
   for (const std::string& notice : this->Found->file.notices)
   {
     this->NoticesText += notice + "\n";

@@ -88,7 +88,7 @@ public:
 
   ///@{
   /**
-   * Seconds after which a file is refused; 0: 20, and 30 more for each megabyte. Default: 0.
+   * Seconds after which a file is refused; 0: 20, and 10 more for each megabyte. Default: 0.
    */
   vtkSetClampMacro(TimeLimit, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(TimeLimit, double);

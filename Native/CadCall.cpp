@@ -90,11 +90,14 @@ py::tuple readCad(
 }
 
 /// Points, what each is on (CadPlaceKind), its id or -1, normals and both curvatures.
+/// faces: of the cells, or empty.
 py::tuple placeOnCad(const ArrayOf<std::uint8_t>& shape, const ArrayOf<double>& tessellation,
-  const ArrayOf<double>& points, const ArrayOf<std::int64_t>& corners)
+  const ArrayOf<double>& points, const ArrayOf<std::int64_t>& corners,
+  const ArrayOf<std::int64_t>& faces)
 {
   refuseIf(static_cast<std::size_t>(tessellation.size()) != kTessellationNumbers ||
-      corners.ndim() != 2 || corners.shape(1) != 4,
+      corners.ndim() != 2 || corners.shape(1) != 4 ||
+      (faces.size() != 0 && faces.size() != corners.shape(0)),
     "what the mesh has of its CAD file is damaged");
   CadQuads quads;
   quads.points = vectorsFrom(points);
@@ -102,6 +105,11 @@ py::tuple placeOnCad(const ArrayOf<std::uint8_t>& shape, const ArrayOf<double>& 
   for (std::size_t i = 0; i < 4 * quads.corners.size(); ++i)
   {
     quads.corners[i / 4][i % 4] = static_cast<Index>(corners.data()[i]);
+  }
+  quads.faces.resize(faces.size() == 0 ? 0 : quads.points.size(), kInvalidIndex);
+  for (std::size_t i = 0; i < 4 * quads.corners.size() && !quads.faces.empty(); ++i)
+  {
+    quads.faces[quads.corners[i / 4][i % 4]] = static_cast<Index>(faces.data()[i / 4]);
   }
   TessellationOptions options;
   options.chordError = tessellation.data()[0];

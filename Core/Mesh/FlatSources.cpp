@@ -76,8 +76,8 @@ std::shared_ptr<const FlatSources> FlatSources::movedOnto(
   return std::make_shared<const FlatSources>(std::move(moved), faces_);
 }
 
-/// A place of the face on the triangles of before. Where sheets touch, its own side counts, unless faces were reversed
-/// since.
+/// A place of the face on the triangles of before. Where sheets touch, its own side counts, even where the other one is
+/// nearer by rounding.
 NearestTriangle::Place FlatSources::under(
   const FlippedFace& face, const std::array<double, 3>& weights) const
 {
@@ -85,8 +85,9 @@ NearestTriangle::Place FlatSources::under(
   const Vector3 place = weights[0] * a + weights[1] * b + weights[2] * c;
   const std::optional<NearestTriangle::Place> nearest = tree_.at(place);
   assert(nearest);
+  const Vector3 normal = face.isReversed ? (c - a).cross(b - a) : (b - a).cross(c - a);
   const std::optional<NearestTriangle::Place> facing =
-    tree_.at(place, (b - a).cross(c - a), nearest->distance);
+    tree_.at(place, normal, nearest->distance + kFlatHeight * before_.boundingBoxDiagonal);
   return facing ? *facing : *nearest;
 }
 

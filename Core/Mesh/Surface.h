@@ -121,6 +121,7 @@ struct FlippedFace
   std::array<Index, 3> points{ kInvalidIndex, kInvalidIndex, kInvalidIndex }; ///< as inputPointAt
   /// Of the corners, in the coordinates that they had then.
   std::array<Vector3, 3> places{ Vector3::Zero(), Vector3::Zero(), Vector3::Zero() };
+  bool isReversed = false; ///< since then
 };
 
 class FlatSources;

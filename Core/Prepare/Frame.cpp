@@ -470,6 +470,7 @@ void reverseFaces(PreparedSurface& surface)
   {
     std::swap(face.points[1], face.points[2]);
     std::swap(face.places[1], face.places[2]);
+    face.isReversed = !face.isReversed;
   }
 }
 

@@ -423,7 +423,8 @@ def on_cad_geometry(mesh):
     if "CadShape" not in fields or mesh.faces.ndim != 2 or mesh.faces.shape[1] != 4:
         raise InvalidInput("take quads that were made on a Mesh of read_cad()")
     points, place, ids, normals, curvatures = _native.place_on_cad(
-        fields["CadShape"], fields["CadTessellation"], mesh.points, mesh.faces)
+        fields["CadShape"], fields["CadTessellation"], mesh.points, mesh.faces,
+        mesh.cell_data.get("CadFaceId", ()))
     arrays = {"CadPlace": place, "CadId": ids, "CadNormal": normals, "CadCurvature": curvatures}
     counts = {"NodesOnGeometry": [int((place > 0).sum())], "NodesOffGeometry": [int((place == 0).sum())]}
     return Mesh.from_cells(points, mesh.offsets, mesh.corners, point_data={**mesh.point_data, **arrays},

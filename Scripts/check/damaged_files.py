@@ -6,9 +6,9 @@ without a message or with a code that its help does not list, or leaves a file b
 
   damaged_files.py QUADRILLE MESH... [--files N] [--seed N] [--jobs N] [--limit SECONDS] [--keep FOLDER]
 
-MESH is written in every format that the command reads; each damaged file is one of these with bytes changed, cut away,
-doubled or inserted, numbers replaced, lines swapped or dropped. The same seed makes the same files. What fails is kept
-in --keep.
+MESH, a PLY file, is written in every format that the command reads; a CAD file is taken as it is. Each damaged file is
+one of these with bytes changed, cut away, doubled or inserted, numbers replaced, lines swapped or dropped. The same
+seed makes the same files. What fails is kept in --keep.
 """
 import argparse
 import collections
@@ -40,6 +40,8 @@ CODES = set(range(8))
 NUMBERS = ("nan", "inf", "-inf", "1e308", "-1e308", "1e-320", "0", "-1", "-0", "2147483647", "2147483648", "4294967295",
            "4294967296", "-2147483649", "9223372036854775808", "99999999999999999999999", "1e999", "0x1F", "1.5", "",
            "abc", "3", "1000000")
+#: Of CAD files.
+CAD = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 #: Bytes of address space, so that a length read from a damaged file cannot take the machine's memory.
 MEMORY = 6 << 30
 #: A run that waits, and does not compute, ends after so many times the limit.
@@ -225,13 +227,16 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         originals = []
         for mesh in arguments.mesh:
+            if os.path.splitext(mesh)[1].lower() in CAD:
+                originals.append(mesh)
+                continue
             reader = vtkPLYReader()
             reader.SetFileName(mesh)
             reader.Update()
             surface = vtkPolyData()
             surface.ShallowCopy(reader.GetOutput())
             if surface.GetNumberOfPolys() == 0:
-                parser.error(f"{mesh} has no triangles: give PLY files")
+                parser.error(f"{mesh} has no triangles: give PLY or CAD files")
             originals += write_all(surface, os.path.join(folder, os.path.splitext(os.path.basename(mesh))[0]))
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
             runs = [pool.submit(run_one, arguments.program, originals, arguments.seed + i, arguments.limit,

@@ -11,6 +11,8 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -148,6 +150,39 @@ CadShape twoBoxes()
   return shapeOf(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(1, 1, 1).Shape(),
     BRepPrimAPI_MakeBox(gp_Pnt(1, 0, 0), gp_Pnt(2, 1, 1)).Shape())
                    .Shape());
+}
+
+/// Where parts touch a point goes onto the one that it is of.
+TEST(Placement, PointsOfPartsThatTouchStayOnTheirPart)
+{
+  BRep_Builder builder;
+  TopoDS_Compound both;
+  builder.MakeCompound(both);
+  builder.Add(both, BRepPrimAPI_MakeBox(1, 1, 1).Shape());
+  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 1), gp_Pnt(1, 1, 2)).Shape());
+  const CadShape shape = shapeOf(both);
+  const CadSurface surface = tessellate(shape);
+  const std::vector<Vector3> points{ { 0, 0, 1 }, { 0.3, 0, 1 }, { 0.3, 0.4, 1 } };
+  const std::array<std::size_t, 3> ofOneBox{ 8, 12, 6 }; // vertices, edges, faces
+  for (const Index part : { 0, 1 })
+  {
+    const Index face = 6 * part; // of either box one
+    const std::vector<CadPlace> places =
+      placeOnShape(shape, surface, points, {}, std::vector<Index>(3, face));
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      EXPECT_EQ(places[i].kind, static_cast<CadPlaceKind>(3 - i));
+      EXPECT_EQ(places[i].id / ofOneBox[i], part);
+      EXPECT_EQ(places[i].face / 6, part);
+      EXPECT_EQ(places[i].point, points[i]);
+    }
+    EXPECT_EQ(places[2].normal, Vector3(0, 0, part == 0 ? 1 : -1));
+  }
+  // A face that the shape does not have, or none, leaves the choice open.
+  for (const Index face : { Index{ 99 }, kInvalidIndex })
+  {
+    EXPECT_EQ(placeOnShape(shape, surface, { points[0] }, {}, { face }).front().point, points[0]);
+  }
 }
 
 TEST(Placement, VerticesWithinStraightLinesGetNodes)

@@ -5,6 +5,7 @@
 
   test_cad.py QUADRILLE CAD_SHAPES CAD_MEASURE WORK_DIR
 """
+import ctypes
 import os
 import pathlib
 import subprocess
@@ -14,6 +15,7 @@ import unittest
 import numpy
 import vtkmodules.vtkIOXML  # noqa: F401, so that Python knows the class of the reader
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 from vtkmodules.vtkIOExodus import vtkExodusIIReader
 
 import quadrille
@@ -25,6 +27,7 @@ except ImportError:  # its tests are left out, and say so
 
 COMMAND, SHAPES, MEASURE, WORK = sys.argv[1:5]
 FOLDER = pathlib.Path(WORK)
+KEPT = []  # what has to last as long as the process
 
 
 def run(*words):
@@ -191,6 +194,32 @@ class Cad(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("no such file", result.stderr)
 
+    def test_a_damaged_file_is_read_once(self):
+        """Each reading forks; another one comes with a change of the reader or of the file, and not by itself."""
+        whole = (FOLDER / "named.step").read_bytes()
+        (FOLDER / "cut.step").write_bytes(whole[:len(whole) // 3])
+        reader = quadrille.QuadrilleFilters.vtkQuadrilleCADReader()
+        reader.SetFileName(str(FOLDER / "cut.step"))
+        reader.AddObserver("ErrorEvent", lambda caller, event: None)
+        reader.GetExecutive().AddObserver("ErrorEvent", lambda caller, event: None)
+        forks = []
+        count = ctypes.CFUNCTYPE(None)(lambda: forks.append(1))
+        getattr(ctypes.CDLL(None), "__register_atfork")(None, count, None, None)
+        self.addCleanup(KEPT.append, count)  # which is never taken back
+        reader.Update()
+        self.assertIn("is damaged", reader.GetOutcomeText())
+        self.assertEqual(len(forks), 1)
+        reader.Update()
+        self.assertEqual(len(forks), 1)
+        reader.Modified()
+        reader.Update()
+        self.assertEqual(len(forks), 2)
+        (FOLDER / "cut.step").write_bytes(whole)
+        reader.Modified()
+        reader.Update()
+        self.assertEqual(reader.GetOutcomeText(), "")
+        self.assertGreater(reader.GetOutputDataObject(0).GetNumberOfCells(), 0)
+
     def test_what_is_of_no_cad_file_is_told(self):
         with self.assertRaisesRegex(quadrille.InvalidInput, "CadShape"):
             quadrille.on_cad_geometry(quadrille.to_polydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)],
@@ -242,12 +271,40 @@ class Notices(unittest.TestCase):
             projection.SetInputData(quads)
             projection.Update()
             ids = projection.GetOutputDataObject(0).GetFieldData().GetArray("CadVerticesWithoutNode")
-            return projection.GetNoticesText(), ids.GetNumberOfValues() if ids else 0
+            return projection, ids.GetNumberOfValues() if ids else 0
 
-        self.assertEqual(told(whole), ("", 0))
-        text, count = told(half)
+        projection, count = told(whole)
+        self.assertEqual((projection.GetNoticesText(), count), ("", 0))
+        self.assertEqual(projection.GetVerdict(), f"All {len(points)} nodes lie on the exact shape")
+        self.assertEqual(projection.GetOutputDataObject(1).GetNumberOfCells(), 0)
+        projection, count = told(half)
         self.assertEqual(count, 4)
-        self.assertRegex(text, r"^4 corners of CAD edges .* have no node, the first at \(-?\d, \d, 2\): quads of")
+        wanted = r"4 corners of CAD edges .* have no node, the first at \(-?\d, \d, 2\): quads of"
+        self.assertRegex(projection.GetNoticesText(), "^" + wanted)
+        self.assertRegex(projection.GetVerdict(), f"^All {len(used)} nodes lie on the exact shape; " + wanted)
+        # The places themselves are the second output.
+        problems = projection.GetOutputDataObject(1)
+        self.assertEqual(problems.GetNumberOfVerts(), 4)
+        self.assertEqual(set(vtk_to_numpy(problems.GetCellData().GetArray("CadProblem"))), {0})
+        self.assertEqual({tuple(p) for p in vtk_to_numpy(problems.GetPoints().GetData())},
+                         {(x, y, 2) for x in (0, 4) for y in (0, 3)})
+        # Of blocks all together, each with its name; far from the shape no node is put there.
+        far = quadrille.to_polydata(points[used] + (0, 0, 50), corners.reshape(-1, 4))
+        far.GetFieldData().ShallowCopy(whole.GetFieldData())
+        blocks = vtkMultiBlockDataSet()
+        for i, (name, block) in enumerate((("whole", whole), ("half", half), ("far", far))):
+            blocks.SetBlock(i, block)
+            blocks.GetMetaData(i).Set(blocks.NAME(), name)
+        projection.SetInputData(blocks)
+        projection.Update()
+        self.assertEqual(projection.GetNodesOnGeometry(), len(points) + len(used))
+        self.assertEqual(projection.GetNodesOffGeometry(), len(used))
+        self.assertRegex(projection.GetNoticesText(), r"^12 corners .* the first at \(-?\d, \d, 2\) of half: quads of")
+        self.assertRegex(projection.GetVerdict(), rf"^{len(used)} of {len(points) + 2 * len(used)} nodes stay on")
+        kinds = vtk_to_numpy(projection.GetOutputDataObject(1).GetCellData().GetArray("CadProblem"))
+        self.assertEqual((kinds == 1).sum(), len(used))
+        output = projection.GetOutputDataObject(0)
+        self.assertEqual([output.GetMetaData(i).Get(output.NAME()) for i in range(3)], ["whole", "half", "far"])
 
 
 class Sets(unittest.TestCase):

@@ -29,6 +29,14 @@ def plate(columns=24, rows=16):
     return points, faces
 
 
+def box(low, high):
+    """Of two triangles a side."""
+    (a, b, c), (d, e, f) = low, high
+    points = numpy.array([(x, y, z) for z in (c, f) for y in (b, e) for x in (a, d)], dtype=float)
+    sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    return points, numpy.array([t for p, q, r, s in sides for t in ((p, q, r), (p, r, s))])
+
+
 def hexahedra():
     """Two hexahedra side by side."""
     grid = vtkUnstructuredGrid()
@@ -169,6 +177,25 @@ class Mesh(unittest.TestCase):
         image.SetDimensions(4, 4, 4)
         self.assertGreater(quadrille.remesh(image, quads=60).GetNumberOfCells(), 40)
         self.assertRefused(["no surface"], vtkUnstructuredGrid(), quads=9)
+
+    def test_cells_of_parts_that_touch(self):
+        """Each quad has the number of its own part, also where another part lies on it."""
+        parts = [box((0, 0, 0), (9, 7, 1)), box((1, 2, 1), (8, 4, 2))]
+        turned = numpy.linalg.qr(numpy.random.default_rng(7).normal(size=(3, 3)))[0]
+        for turn in (numpy.eye(3), turned):
+            for order in (1, -1):
+                mesh = quadrille.to_polydata(numpy.concatenate([points for points, _ in parts]) @ turn.T,
+                                             numpy.concatenate((parts[0][1], parts[1][1] + 8))[:, ::order])
+                number = numpy_to_vtk(numpy.repeat([0, 1], 12).astype(numpy.int32), deep=True)
+                number.SetName("Part")
+                mesh.GetCellData().AddArray(number)
+                quads = quadrille.remesh(mesh, quads=1500)
+                points, faces = quadrille.to_arrays(quads)
+                found = vtk_to_numpy(quads.GetCellData().GetArray("Part"))
+                for part in (0, 1):
+                    # Points of the two are apart, so that each has its own.
+                    own, other = (numpy.unique(faces[found == k]) for k in (part, 1 - part))
+                    self.assertEqual(len(numpy.intersect1d(own, other)), 0)
 
     def test_numbers(self):
         mesh = (self.points, self.faces)
