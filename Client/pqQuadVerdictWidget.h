@@ -14,8 +14,9 @@ class QPushButton;
 class QScrollArea;
 class vtkSMSourceProxy;
 
-/// The verdict on the last execution of Quad Remesh, or of Quad Nodes On CAD Geometry, in the panel: in words and colour, with a button that shows what is
-/// wrong, a place at each press, and one that sets the property that mends it and makes the quads anew.
+/// The verdict on the last execution of Quad Remesh, or of Quad Nodes On CAD Geometry, in the panel: in words and
+/// colour, with a button that shows what is wrong, a place at each press, and one that sets the property that mends it
+/// and makes the quads anew.
 class pqQuadVerdictWidget : public pqPropertyWidget
 {
   Q_OBJECT

@@ -11,9 +11,9 @@
  * vertex that would have none, as where an edge of the part is divided. Nodes stay where that is not possible, and
  * where a quad would be turned over.
  *
- * The second output has a vertex for each place that is not as it should be, with the cell array `CadProblem`: 0 where a
- * corner of the shape has no node, 1 where a node stays. Of composite data all blocks are put onto their shapes, and the
- * second output, the counts and the texts are those of all together.
+ * The second output has a vertex for each place that is not as it should be, with the cell array `CadProblem`: 0 where
+ * a corner of the shape has no node, 1 where a node stays. Of composite data all blocks are put onto their shapes, and
+ * the second output, the counts and the texts are those of all together.
  *
  * Point arrays: `CadPlace` (0: the node stays, 1: on a face, 2: on an edge, 3: on a vertex), `CadId` (of the face, edge
  * or vertex; -1), `CadNormal` and `CadCurvature` (the larger and the smaller one) of the exact surface. Field data:

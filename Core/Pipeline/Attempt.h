@@ -36,6 +36,7 @@ struct RunContext
   std::vector<FixedVec2> spare = {}; ///< see TransferOptions
   /// Whether many details are left that can be taken out where a round has no quads: better than other rounds.
   bool hasCrowd = false;
+  bool hasBeside = false; ///< see SizedSurface
   /// Which attempt this is, and why; empty for the first one.
   std::shared_ptr<std::string> tried = std::make_shared<std::string>();
 };

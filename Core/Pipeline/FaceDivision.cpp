@@ -240,11 +240,6 @@ public:
     for (std::size_t strips = 0; strips <= kMostStrips; ++strips)
     {
       findShared();
-      if (!alone_.empty())
-      {
-        made.failedAt = std::move(alone_);
-        return made;
-      }
       curves_.setGiven(places_);
       odd = curves_.chooseNumbers();
       if (odd.empty() || !insertStrip(odd))
@@ -254,6 +249,7 @@ public:
     }
     if (!odd.empty())
     {
+      made.failedAt = alone_;
       for (const Index face : odd)
       {
         made.failedAt.push_back(placeOf(face));
@@ -283,6 +279,7 @@ private:
     points_.clear();
     places_.clear();
     same_.clear();
+    alone_.clear();
     if (restQuads_ == nullptr)
     {
       return;
@@ -340,7 +337,7 @@ private:
   }
 
   /// Points at one corner of the faces are one point, though the rest has several where it meets itself there. Where it
-  /// has one on one side of such a corner only, nothing fits.
+  /// has one on one side of such a corner only, numbers may be odd for it.
   void placeShared(const std::map<Index, std::vector<CurvePoint>>& onShared)
   {
     DisjointSets same(restQuads_->points.size(), 1);
@@ -627,6 +624,7 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
     rest.curves = std::move(parts[1].curves);
     SizedSurface& sized = rest.sized;
     sized.edgeLength = whole.edgeLength;
+    sized.hasBeside = true;
     sized.targetQuads = static_cast<std::size_t>(
       std::max(1.0, std::round(rest.share * static_cast<double>(whole.targetQuads))));
     sized.key = KeyMaker(whole.key).add(parts[1].surface.hash).key();

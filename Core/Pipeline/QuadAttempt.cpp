@@ -226,7 +226,7 @@ void extractOnSurface(
   options.fixedVertices = verticesThatStay(*surface, map);
   options.guides = map.guides;
   // Else quads of the curves' chains could go. Of the coarsest ones each is a patch of a layout, whatever its shape.
-  options.replacesBad = map.curves.empty() && !run.options.coarsestIntegers;
+  options.replacesBad = map.curves.empty() && !run.options.coarsestIntegers && !run.hasBeside;
   options.keepsIrregular = surface->regularElsewhere;
   options.mapIsCertified = map.certificate.valid();
   options.shape = shape.get();

@@ -331,12 +331,15 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
   }
   takeBefore(history, settled, sized, result);
   sized.surface = std::make_shared<const PreparedSurface>(joined.take(result, options.threads));
-  SmoothingOptions smoothing;
-  smoothing.steps = options.smoothingSteps;
-  smoothing.threads = options.threads;
-  smoothQuads(sized.surface->mesh, result.quads, smoothing);
-  untangleQuads(sized.surface->mesh, result.quads, { {}, options.threads });
-  repairQuads(sized.surface->mesh, result.quads, {}, options.threads);
+  if (!sized.hasBeside)
+  {
+    SmoothingOptions smoothing;
+    smoothing.steps = options.smoothingSteps;
+    smoothing.threads = options.threads;
+    smoothQuads(sized.surface->mesh, result.quads, smoothing);
+    untangleQuads(sized.surface->mesh, result.quads, { {}, options.threads });
+    repairQuads(sized.surface->mesh, result.quads, {}, options.threads);
+  }
   result.notices.push_back(filledText(cut, sized.targetQuads));
   failure = {};
   return true;

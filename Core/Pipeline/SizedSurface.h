@@ -36,8 +36,10 @@ struct SizedSurface : SizeReport
   Status status; ///< TooLarge where more quads would be made than may
   std::shared_ptr<const PreparedSurface> surface;
   std::size_t work =
-    WorkBound::kNoBound;  ///< that its attempts may take, where it is a part of a surface
-  ResultKey key = 0;      ///< of all but guides and valences
+    WorkBound::kNoBound; ///< that its attempts may take, where it is a part of a surface
+  bool hasBeside =
+    false;           ///< faces beside it are filled: quads of both are improved when they are one
+  ResultKey key = 0; ///< of all but guides and valences
   ResultKey starsKey = 0; ///< see PlannedSurface
   OwnVertices own;        ///< the same
   /// Components that become the smallest blocks of quads, and a word on them, see countBlocks.

@@ -221,7 +221,6 @@ struct CutPlate
       input.featureEdges.push_back(bits);
     }
     PreparedSurface prepared = prepareSurface(input, {});
-    std::vector<Index> out;
     for (Index f = 0; f < prepared.mesh.faceCount(); ++f)
     {
       if (isOut(prepared.mesh.middleOfFace(f)))
@@ -229,7 +228,6 @@ struct CutPlate
         out.push_back(f);
       }
     }
-    SizedSurface whole;
     whole.surface = std::make_shared<const PreparedSurface>(std::move(prepared));
     whole.edgeLength = 1;
     whole.targetQuads = 32;
@@ -263,6 +261,8 @@ struct CutPlate
     return fillCutFaces(cut, &rest(), &quads, 1);
   }
 
+  std::vector<Index> out; ///< faces, ascending
+  SizedSurface whole;
   CutFaces cut;
 };
 
@@ -355,20 +355,16 @@ TEST_F(CrossedPlate, TheCrossingIsOnePoint)
   EXPECT_EQ(topology.eulerCharacteristic, 1);
 }
 
-/// Quads of the rest that pass the crossing without a point there leave the faces nothing to meet in.
-TEST_F(CrossedPlate, PointsOnOneSideOfACrossingAreTold)
+TEST_F(CrossedPlate, AllFacesAtTheCrossingAreCutOutWithIt)
 {
-  ASSERT_TRUE(plate_.cut.rest);
-  addRows(Vector3(4, 0, 0), { 0, 1, 2, 3, 4 });
-  quads_.points.insert(quads_.points.end(),
-    { Vector3(0, 2, 0), Vector3(3.5, 2, 0), Vector3(4, 2.5, 0), Vector3(4, 4, 0), Vector3(0, 4, 0),
-      Vector3(0, 3, 0), Vector3(2, 3, 0) });
-  quads_.quads.push_back({ 15, 16, 21, 20 });
-  quads_.quads.push_back({ 16, 17, 18, 21 });
-  quads_.quads.push_back({ 20, 21, 18, 19 });
-  const FilledPart filled = plate_.fill(quads_);
-  ASSERT_FALSE(filled.failedAt.empty());
-  EXPECT_EQ(filled.failedAt[0], Vector3(4, 2, 0));
+  FailedFaces failed{ plate_.out, {} };
+  EXPECT_FALSE(addFacesAt({ Vector3(2, 1, 0) }, plate_.whole, failed)); // is out already
+  EXPECT_TRUE(plate_.cut.rest);
+  EXPECT_TRUE(addFacesAt({ Vector3(4, 2, 0) }, plate_.whole, failed));
+  EXPECT_TRUE(std::is_sorted(failed.faces.begin(), failed.faces.end()));
+  const CutFaces cut = cutFaces(plate_.whole, failed, 1);
+  EXPECT_EQ(cut.count, 4U);
+  EXPECT_FALSE(cut.rest);
 }
 
 } // namespace
