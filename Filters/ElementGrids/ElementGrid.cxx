@@ -141,14 +141,7 @@ std::vector<Vector3> normalsAtPoints(
 
 std::unique_ptr<NearestTriangle> treeOf(const Mesh& mesh)
 {
-  TriangleList list;
-  list.points = mesh.position;
-  list.corners.resize(mesh.faceCount());
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    list.corners[f] = { mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] };
-  }
-  return std::make_unique<NearestTriangle>(std::move(list));
+  return std::make_unique<NearestTriangle>(trianglesOf(mesh));
 }
 
 /// The nearest place that faces the same way; of all where there is none, or where p lies on the surface elsewhere, as
