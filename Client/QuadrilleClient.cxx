@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "WindowPauses.h"
 #include "pqQuadrilleHandles.h"
 #include "pqQuadrilleToolBar.h"
 #include "pqQuadrilleWidgets.h"
@@ -32,6 +33,7 @@ void placeToolBar()
     window->addToolBarBreak(Qt::TopToolBarArea);
     window->addToolBar(Qt::TopToolBarArea, bar);
     new pqQuadrilleHandles(bar);
+    quadrille::writePauses(bar);
   }
 }
 

@@ -14,6 +14,7 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxyIterator.h"
 #include "vtkSMProxySelectionModel.h"
+#include "vtkSMQuadConstraintProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
@@ -188,6 +189,21 @@ vtkSMSourceProxy* addConstraint(vtkSMSourceProxy* filter, const NewConstraint& c
     filter->UpdateVTKObjects();
   }
   return made;
+}
+
+vtkSmartPointer<vtkSMQuadConstraintProxy> newMove(vtkSMSourceProxy* filter)
+{
+  const pqScopedUndoExclude noStepOfTheUser;
+  auto made = vtkSmartPointer<vtkSMProxy>::Take(
+    filter->GetSessionProxyManager()->NewProxy("sources", "QuadMove"));
+  vtkSmartPointer<vtkSMQuadConstraintProxy> move = vtkSMQuadConstraintProxy::SafeDownCast(made);
+  if (move)
+  {
+    vtkNew<vtkSMParaViewPipelineController> controller;
+    controller->InitializeProxy(move);
+    move->UpdateVTKObjects();
+  }
+  return move;
 }
 
 vtkSMSourceProxy* lastConstraint(vtkSMSourceProxy* filter)

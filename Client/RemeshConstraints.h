@@ -5,12 +5,15 @@
 
 #include "DrawnLine.h"
 
+#include "vtkSmartPointer.h"
+
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 class vtkSMProxy;
+class vtkSMQuadConstraintProxy;
 class vtkSMSourceProxy;
 
 namespace quadrille
@@ -35,6 +38,10 @@ struct NewConstraint
 /// A source that is registered, and one of the constraints of the filter. What is selected in the pipeline stays. The
 /// filter is not updated. Null where the server does not know such a source.
 vtkSMSourceProxy* addConstraint(vtkSMSourceProxy* filter, const NewConstraint& constraint);
+
+/// A move of an irregular vertex that belongs to no filter and is not in the pipeline: for previews. Null where the
+/// server does not know such a source.
+vtkSmartPointer<vtkSMQuadConstraintProxy> newMove(vtkSMSourceProxy* filter);
 
 /// The constraint of the filter that was made last, by these tools or otherwise; null where it has none.
 vtkSMSourceProxy* lastConstraint(vtkSMSourceProxy* filter);

@@ -3,6 +3,7 @@
 #include "pqQuadVerdictWidget.h"
 
 #include "RemeshProblems.h"
+#include "pqQuadrilleRun.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
@@ -151,7 +152,8 @@ void pqQuadVerdictWidget::refresh()
 {
   const QString text = QString::fromUtf8(vtkSMPropertyHelper(this->Verdict).GetAsString());
   const bool isWrong = !text.isEmpty() && quadrille::hasProblems(this->filter());
-  const Mood mood = text.isEmpty()                    ? Mood::NotRun
+  const bool isOpen = text.isEmpty() || text.startsWith("Underway");
+  const Mood mood = isOpen                            ? Mood::NotRun
     : !textOf(this->proxy(), "OutcomeText").isEmpty() ? Mood::Failed
     : isWrong                                         ? Mood::Doubtful
                                                       : Mood::Well;
@@ -201,7 +203,12 @@ void pqQuadVerdictWidget::applyRemedy()
   BEGIN_UNDO_SET(this->Apply->text());
   quadrille::apply(this->filter(), *remedy);
   END_UNDO_SET();
-  QApplication::setOverrideCursor(Qt::WaitCursor);
-  pqApplicationCore::instance()->render();
-  QApplication::restoreOverrideCursor();
+  pqQuadrilleRun::instance()->start(this->filter(),
+    [](pqQuadrilleRun::End how)
+    {
+      if (how == pqQuadrilleRun::End::Stopped)
+      {
+        pqApplicationCore::instance()->getUndoStack()->undo();
+      }
+    });
 }

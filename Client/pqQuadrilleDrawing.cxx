@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadrilleDrawing.h"
 
+#include "StatusBar.h"
 #include "SurfaceUnderMouse.h"
 #include "pqQuadrilleOverlay.h"
+#include "pqQuadrilleRun.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
-#include "pqCoreUtilities.h"
 #include "pqPipelineSource.h"
 #include "pqRenderView.h"
 #include "pqUndoStack.h"
@@ -16,16 +17,16 @@
 #include "vtkNew.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
+#include "vtkSMQuadConstraintProxy.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSourceProxy.h"
 
 #include <QApplication>
 #include <QKeyEvent>
-#include <QMainWindow>
-#include <QStatusBar>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace
 {
@@ -33,6 +34,7 @@ namespace
 using quadrille::NewConstraint;
 using quadrille::Pixel;
 using quadrille::Place;
+using quadrille::say;
 using Tool = pqQuadrilleDrawing::Tool;
 
 constexpr double kSampleStep = 5;       // pixels between places that are looked for
@@ -49,17 +51,7 @@ constexpr double kSameBall = 0.5; // edge lengths
 constexpr int kBallsOutput = 4;
 constexpr int kConstraintsOutput = 5;
 constexpr float kBeforeAllOthers = 10; // priority of observers
-constexpr int kMessageTime = 30000;    // milliseconds
 constexpr int kWheelPause = 250;       // milliseconds
-
-/// A word in the status bar.
-void say(const QString& text)
-{
-  if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
-  {
-    window->statusBar()->showMessage(text, kMessageTime);
-  }
-}
 
 /// The constraint in words, and as the column Kind of the Constraint Table has it.
 struct KindName
@@ -135,6 +127,9 @@ pqQuadrilleDrawing::pqQuadrilleDrawing(QObject* parent) : Superclass(parent)
 {
   this->ValenceTimer.setSingleShot(true);
   this->ValenceTimer.setInterval(kWheelPause);
+  this->Glide.setSingleShot(true);
+  this->Glide.setInterval(0);
+  QObject::connect(&this->Glide, &QTimer::timeout, this, &pqQuadrilleDrawing::glide);
   QObject::connect(&this->ValenceTimer, &QTimer::timeout, this, &pqQuadrilleDrawing::applyValence);
   QObject::connect(&pqActiveObjects::instance(), &pqActiveObjects::viewChanged, this,
     &pqQuadrilleDrawing::listenTo);
@@ -271,6 +266,10 @@ bool pqQuadrilleDrawing::onPress(vtkObject*, unsigned long, void*)
   this->Last.reset();
   this->Path = { this->mouse() };
   this->showPath();
+  if (this->Current == Tool::Move)
+  {
+    this->grasp();
+  }
   return true;
 }
 
@@ -286,6 +285,10 @@ bool pqQuadrilleDrawing::onMove(vtkObject*, unsigned long, void*)
   {
     this->Path.push_back(pixel);
     this->showPath();
+    if (this->Ball)
+    {
+      this->Glide.start();
+    }
   }
   return true;
 }
@@ -372,6 +375,7 @@ bool pqQuadrilleDrawing::eventFilter(QObject* watched, QEvent* event)
 void pqQuadrilleDrawing::stopDrawing()
 {
   this->IsDrawing = false;
+  this->letGo();
   this->Path.clear();
   this->showPath();
 }
@@ -559,39 +563,112 @@ std::optional<Place> pqQuadrilleDrawing::ballAt(
 }
 
 //-----------------------------------------------------------------------------
-void pqQuadrilleDrawing::finishMove(vtkSMSourceProxy* filter)
+void pqQuadrilleDrawing::grasp()
 {
-  const std::optional<Place> from =
-    this->ballAt(filter, this->Path.front(), "There is no ball here: press on a ball and drag it.");
-  if (!from)
+  pqPipelineSource* active = pqActiveObjects::instance().activeSource();
+  vtkSMSourceProxy* filter =
+    quadrille::remeshOf(this->Surface, active ? active->getProxy() : nullptr);
+  const std::optional<Place> ball = filter
+    ? this->ballAt(
+        filter, this->Path.front(), "There is no ball here: press on a ball and drag it.")
+    : std::nullopt;
+  if (ball)
+  {
+    this->Ball = { filter, *ball, quadrille::irregularVertices(filter),
+      quadrille::edgeLength(filter).value_or(0), nullptr, {} };
+  }
+}
+
+//-----------------------------------------------------------------------------
+std::optional<Place> pqQuadrilleDrawing::placeOfBall() const
+{
+  std::optional<Place> to =
+    quadrille::placesUnder(this->viewProxy(), { this->Path.back() }, this->Surface).front();
+  double least = kSameBall * this->Ball->Edge;
+  const std::optional<Place> under = to;
+  for (const Place& ball : this->Ball->All)
+  {
+    const double away =
+      under ? std::sqrt(vtkMath::Distance2BetweenPoints(ball.data(), under->data())) : least + 1;
+    if (ball != this->Ball->From && away <= least)
+    {
+      least = away;
+      to = ball;
+    }
+  }
+  return to;
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::glide()
+{
+  // While a preview is being made the mouse moves on; the next one is of where it is then.
+  if (!this->IsDrawing || !this->Ball || !this->Ball->Filter || !this->View ||
+    pqQuadrilleRun::instance()->isUnderway() ||
+    quadrille::lengthOf(this->Path) < kClick * this->pixelRatio())
   {
     return;
+  }
+  const std::optional<Place> to = this->placeOfBall();
+  if (!to || *to == this->Ball->Shown)
+  {
+    return; // beside the surface it stays where it was last
+  }
+  this->Ball->Shown = *to;
+  if (!this->Ball->Move)
+  {
+    this->Ball->Move = quadrille::newMove(this->Ball->Filter);
+  }
+  if (this->Ball->Move &&
+    this->Ball->Move->SendPreview(this->Ball->Filter, coordinatesOf({ this->Ball->From, *to })))
+  {
+    pqQuadrilleRun::instance()->startPreview(
+      this->Ball->Filter, [this](pqQuadrilleRun::End) { this->Glide.start(); });
+  }
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::letGo()
+{
+  this->Glide.stop();
+  const std::optional<DraggedBall> ball = std::exchange(this->Ball, std::nullopt);
+  if (!ball || !ball->Move)
+  {
+    return;
+  }
+  ball->Move->EndPreview();
+  if (this->View && ball->Filter)
+  {
+    pqQuadrilleRun::instance()->startPreview(ball->Filter, [](pqQuadrilleRun::End) {});
+  }
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::finishMove(vtkSMSourceProxy* filter)
+{
+  if (!this->Ball)
+  {
+    return; // the press has told why
   }
   if (quadrille::lengthOf(this->Path) < kClick * this->pixelRatio())
   {
     say("That was a click: drag the ball to where it is to go.");
     return;
   }
-  std::optional<Place> to =
-    quadrille::placesUnder(this->viewProxy(), { this->Path.back() }, this->Surface).front();
+  const std::optional<Place> to = this->placeOfBall();
   if (!to)
   {
     say("The ball was dropped beside the surface: it stays where it was.");
     return;
   }
-  const double near = kSameBall * quadrille::edgeLength(filter).value_or(0);
-  double least = near;
-  for (const Place& ball : quadrille::irregularVertices(filter))
+  const Place from = this->Ball->From;
+  if (this->Ball->Move)
   {
-    const double away = std::sqrt(vtkMath::Distance2BetweenPoints(ball.data(), to->data()));
-    if (ball != *from && away <= least)
-    {
-      least = away;
-      to = ball;
-    }
+    this->Ball->Move->EndPreview();
   }
+  this->Ball.reset();
   this->perform(filter,
-    { "QuadMove", { { "From", coordinatesOf({ *from }) }, { "To", coordinatesOf({ *to }) } } });
+    { "QuadMove", { { "From", coordinatesOf({ from }) }, { "To", coordinatesOf({ *to }) } } });
 }
 
 //-----------------------------------------------------------------------------
@@ -716,10 +793,25 @@ void pqQuadrilleDrawing::showQuads(vtkSMSourceProxy* filter)
 //-----------------------------------------------------------------------------
 void pqQuadrilleDrawing::execute(vtkSMSourceProxy* filter, const std::string& source)
 {
-  QApplication::setOverrideCursor(Qt::WaitCursor);
-  this->View->forceRender();
-  QApplication::restoreOverrideCursor();
-  pqApplicationCore::instance()->render(); // other views
+  const vtkWeakPointer<vtkSMSourceProxy> executed = filter;
+  pqQuadrilleRun::instance()->start(filter,
+    [this, executed, source](pqQuadrilleRun::End how)
+    {
+      if (how == pqQuadrilleRun::End::Stopped)
+      {
+        pqApplicationCore::instance()->getUndoStack()->undo();
+        say(QString("%1: stopped, and taken back.").arg(kindOf(source).name));
+      }
+      else if (executed)
+      {
+        this->tellOutcome(executed, source);
+      }
+    });
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::tellOutcome(vtkSMSourceProxy* filter, const std::string& source)
+{
   const KindName& kind = kindOf(source);
   const std::optional<quadrille::ConstraintWord> word = quadrille::wordOnLast(filter, kind.row);
   if (!word)
@@ -791,9 +883,15 @@ void pqQuadrilleDrawing::removeLast()
   BEGIN_UNDO_SET("Remove " + name);
   quadrille::removeConstraint(filter, last);
   END_UNDO_SET();
-  if (pqView* view = pqActiveObjects::instance().activeView())
-  {
-    view->forceRender();
-  }
-  say(QString("%1 was taken away. Ctrl+Z brings it back.").arg(name));
+  pqQuadrilleRun::instance()->start(filter,
+    [name](pqQuadrilleRun::End how)
+    {
+      if (how == pqQuadrilleRun::End::Stopped)
+      {
+        pqApplicationCore::instance()->getUndoStack()->undo();
+        say(QString("%1: stopped, and brought back.").arg(name));
+        return;
+      }
+      say(QString("%1 was taken away. Ctrl+Z brings it back.").arg(name));
+    });
 }

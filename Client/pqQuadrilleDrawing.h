@@ -6,6 +6,7 @@
 #include "DrawnLine.h"
 #include "RemeshConstraints.h"
 
+#include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <QObject>
@@ -20,6 +21,7 @@ class pqQuadrilleOverlay;
 class pqRenderView;
 class pqView;
 class vtkObject;
+class vtkSMQuadConstraintProxy;
 class vtkSMRenderViewProxy;
 class vtkSMSourceProxy;
 
@@ -94,6 +96,13 @@ private:
   /// The irregular vertex that is seen at the pixel, or none.
   std::optional<quadrille::Place> ballAt(
     vtkSMSourceProxy* filter, const quadrille::Pixel& pixel, const char* ifNone);
+  /// Takes up the ball under the mouse: the quads follow as a preview while it is dragged.
+  void grasp();
+  /// Where it is to go: the place under the mouse, or another ball there.
+  std::optional<quadrille::Place> placeOfBall() const;
+  void glide();
+  /// The quads are as they were before.
+  void letGo();
   /// Balls can be pressed where they are seen.
   void showBalls();
 
@@ -102,6 +111,7 @@ private:
   void showQuads(vtkSMSourceProxy* filter);
   /// Makes the quads anew and says what became of the constraint of this source.
   void execute(vtkSMSourceProxy* filter, const std::string& source);
+  void tellOutcome(vtkSMSourceProxy* filter, const std::string& source);
 
   quadrille::Pixel mouse() const;
   double pixelRatio() const;
@@ -119,6 +129,20 @@ private:
   bool IsBusy = false;                      ///< what was drawn is being made
   vtkWeakPointer<vtkSMSourceProxy> Surface; ///< that is drawn on
   std::vector<quadrille::Pixel> Path;
+
+  /// A ball that is dragged.
+  struct DraggedBall
+  {
+    vtkWeakPointer<vtkSMSourceProxy> Filter;
+    quadrille::Place From;
+    std::vector<quadrille::Place> All; ///< balls, as they were when the button was pressed
+    double Edge = 0;                   ///< of the quads
+    vtkSmartPointer<vtkSMQuadConstraintProxy>
+      Move;                                ///< that previews are made with; null: none was made yet
+    std::optional<quadrille::Place> Shown; ///< by the last preview
+  };
+  std::optional<DraggedBall> Ball;
+  QTimer Glide; ///< moves of the mouse come faster than places are found
 
   std::optional<quadrille::Place> FirstBall; ///< of a connection whose second end is still to come
 

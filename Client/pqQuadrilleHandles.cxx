@@ -5,6 +5,7 @@
 #include "RemeshConstraints.h"
 #include "SurfaceUnderMouse.h"
 #include "pqQuadrilleOverlay.h"
+#include "pqQuadrilleRun.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
@@ -19,7 +20,6 @@
 #include "vtkSMRenderViewProxy.h"
 
 #include <QApplication>
-#include <QElapsedTimer>
 
 #include <algorithm>
 #include <cmath>
@@ -31,10 +31,9 @@ namespace
 using quadrille::Pixel;
 using quadrille::Place;
 
-constexpr double kRingReach = 10;      // pixels from the centre of a ring
-constexpr float kBeforeParaView = 9;   // priority of observers; the drawing tools come first
-constexpr qint64 kLongestFreeze = 300; // milliseconds that a preview may take
-constexpr double kBehind = 0.5;        // edge lengths
+constexpr double kRingReach = 10;    // pixels from the centre of a ring
+constexpr float kBeforeParaView = 9; // priority of observers; the drawing tools come first
+constexpr double kBehind = 0.5;      // edge lengths
 
 std::vector<Place> placesOf(const std::vector<double>& coordinates)
 {
@@ -210,7 +209,7 @@ bool pqQuadrilleHandles::onPress(vtkObject*, unsigned long, void*)
   }
   this->Dragged = this->pointUnderMouse(filter);
   this->HasMoved = false;
-  this->HasPreviews = true;
+  this->Shown = this->Points;
   return this->Dragged.has_value();
 }
 
@@ -231,7 +230,6 @@ bool pqQuadrilleHandles::onRelease(vtkObject*, unsigned long, void*)
   {
     return this->IsBusy;
   }
-  this->HasPreviews = false;
   this->glide();
   this->Glide.stop();
   this->IsBusy = true;
@@ -252,23 +250,32 @@ void pqQuadrilleHandles::glide()
     quadrille::placesUnder(this->viewProxy(), { pixel }, surface).front();
   if (!place || *place == this->Points[*this->Dragged])
   {
+    this->follow();
     return; // beside the surface it stays where it was last
   }
   this->HasMoved = true;
   this->Points[*this->Dragged] = *place;
   this->showRings();
-  if (!this->HasPreviews)
+  this->follow();
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleHandles::follow()
+{
+  auto* filter =
+    this->Constraint ? vtkSMSourceProxy::SafeDownCast(this->Constraint->GetFilter()) : nullptr;
+  // While a preview is being made the mouse moves on; the next one is of where it is then.
+  if (!this->Dragged || !filter || pqQuadrilleRun::instance()->isUnderway() ||
+    this->Shown == this->Points)
   {
     return;
   }
-  QElapsedTimer clock;
-  clock.start();
-  const bool isMade = this->Constraint->PreviewWith(coordinatesOf(this->Points));
-  if (isMade)
+  this->Shown = this->Points;
+  if (this->Constraint->SendPreview(filter, coordinatesOf(this->Points)))
   {
-    this->View->forceRender();
+    pqQuadrilleRun::instance()->startPreview(
+      filter, [this](pqQuadrilleRun::End) { this->Glide.start(); });
   }
-  this->HasPreviews = isMade && clock.elapsed() <= kLongestFreeze;
 }
 
 //-----------------------------------------------------------------------------
@@ -285,10 +292,17 @@ void pqQuadrilleHandles::finish()
     {
       source->setModifiedState(pqProxy::UNMODIFIED);
     }
-    QApplication::setOverrideCursor(Qt::WaitCursor);
-    pqApplicationCore::instance()->render();
-    this->View->forceRender();
-    QApplication::restoreOverrideCursor();
+    if (auto* filter = vtkSMSourceProxy::SafeDownCast(this->Constraint->GetFilter()))
+    {
+      pqQuadrilleRun::instance()->start(filter,
+        [](pqQuadrilleRun::End how)
+        {
+          if (how == pqQuadrilleRun::End::Stopped)
+          {
+            pqApplicationCore::instance()->getUndoStack()->undo();
+          }
+        });
+    }
   }
   this->IsBusy = false;
   this->showRings();

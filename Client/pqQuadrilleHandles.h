@@ -27,7 +27,7 @@ class vtkSMSourceProxy;
  * The points of the constraint that is selected in the pipeline, as rings in front of everything, where they are.
  *
  * The plain left mouse button on a ring drags the point over the surface that is seen: it never leaves it. Meanwhile
- * the quads follow as a preview, until one takes too long; the button released, they are made.
+ * the quads follow as a preview; the button released, they are made.
  */
 class pqQuadrilleHandles : public QObject
 {
@@ -54,6 +54,8 @@ private:
   /// The point whose ring is under the mouse, where it is not behind what is seen.
   std::optional<std::size_t> pointUnderMouse(vtkSMSourceProxy* filter) const;
   void glide();
+  /// A preview of the points as they are.
+  void follow();
   void finish();
 
   quadrille::Pixel mouse() const;
@@ -68,9 +70,9 @@ private:
   std::vector<quadrille::Place> Points;
   std::optional<std::size_t> Dragged;
   bool HasMoved = false;
-  bool IsBusy = false;      ///< what was dragged is being made
-  bool HasPreviews = false; ///< of this drag
-  QTimer Glide;             ///< moves of the mouse come faster than places are found
+  bool IsBusy = false;                 ///< what was dragged is being applied
+  std::vector<quadrille::Place> Shown; ///< points of the last preview
+  QTimer Glide;                        ///< moves of the mouse come faster than places are found
 };
 
 #endif

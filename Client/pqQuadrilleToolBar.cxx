@@ -4,6 +4,7 @@
 
 #include "RemeshConstraints.h"
 #include "pqQuadrilleDrawing.h"
+#include "pqQuadrilleRun.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
@@ -16,6 +17,7 @@
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
+#include "vtkWeakPointer.h"
 
 #include <QAction>
 #include <QIcon>
@@ -98,6 +100,20 @@ QString whyNoDrawing(pqPipelineSource* selected)
   return selected ? selected->getSMName() +
       " has no Quad Remesh: select one in the pipeline, or make one with the first button."
                   : QString("there is no Quad Remesh: the first button makes one.");
+}
+
+/// The outputs of the filter that are shown at first, in place of the surface.
+void showInstead(vtkSMSourceProxy* filter, vtkSMSourceProxy* surface, vtkSMViewProxy* view)
+{
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  for (unsigned int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+  {
+    controller->ShowInPreferredView(filter, static_cast<int>(port), view);
+  }
+  if (view && surface)
+  {
+    controller->SetVisibility(surface, 0, view, false);
+  }
 }
 
 } // namespace
@@ -221,20 +237,26 @@ void pqQuadrilleToolBar::makeQuads()
   BEGIN_UNDO_SET("Quad Remesh");
   pqPipelineSource* filter = pqApplicationCore::instance()->getObjectBuilder()->createFilter(
     "filters", "QuadRemesh", surface);
-  if (filter)
+  if (!filter)
   {
-    filter->setModifiedState(pqProxy::UNMODIFIED);
-    vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-    vtkSMViewProxy* shownIn = view ? view->getViewProxy() : nullptr;
-    for (unsigned int port = 0; port < filter->getSourceProxy()->GetNumberOfOutputPorts(); ++port)
-    {
-      controller->ShowInPreferredView(filter->getSourceProxy(), static_cast<int>(port), shownIn);
-    }
-    if (shownIn)
-    {
-      controller->SetVisibility(surface->getSourceProxy(), 0, shownIn, false);
-    }
+    END_UNDO_SET();
+    return;
   }
-  END_UNDO_SET();
-  pqApplicationCore::instance()->render();
+  filter->setModifiedState(pqProxy::UNMODIFIED);
+  const vtkWeakPointer<vtkSMSourceProxy> made = filter->getSourceProxy();
+  const vtkWeakPointer<vtkSMSourceProxy> shown = surface->getSourceProxy();
+  const vtkWeakPointer<vtkSMViewProxy> shownIn = view ? view->getViewProxy() : nullptr;
+  pqQuadrilleRun::instance()->start(made,
+    [made, shown, shownIn](pqQuadrilleRun::End how)
+    {
+      if (how == pqQuadrilleRun::End::Shown && made)
+      {
+        showInstead(made, shown, shownIn);
+      }
+      END_UNDO_SET(); // with what was shown
+      if (how == pqQuadrilleRun::End::Stopped && made)
+      {
+        pqApplicationCore::instance()->getUndoStack()->undo();
+      }
+    });
 }

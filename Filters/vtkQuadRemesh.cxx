@@ -13,6 +13,7 @@
 #include "Convert/Quads.h"
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/ResultStore.h"
+#include "Runs/BackgroundRun.h"
 #include "Runs/Problems.h"
 #include "Runs/RunOfBlock.h"
 #include "Ways/Ways.h"
@@ -83,6 +84,10 @@ void vtkQuadRemesh::SetKeepLevels(vtkTypeBool on)
 //------------------------------------------------------------------------------
 double vtkQuadRemesh::GetRememberedMegabytes() const
 {
+  if (this->GetIsUnderway() != 0)
+  {
+    return this->RememberedBefore;
+  }
   std::size_t bytes = 0;
   this->VisitStates(
     [&bytes](quadrille::BlockState& state)
@@ -257,23 +262,28 @@ vtkSmartPointer<vtkDataObject> vtkQuadRemesh::MakeProblems(quadrille::Block& blo
 }
 
 //------------------------------------------------------------------------------
+int vtkQuadRemesh::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const int isMade = this->Superclass::RequestData(request, inputs, outputs);
+  if (this->GetOutcome() != Underway)
+  {
+    this->Background.reset(); // nobody waits for it any more
+  }
+  return isMade;
+}
+
+//------------------------------------------------------------------------------
 void vtkQuadRemesh::Execute(quadrille::Block& block)
 {
   this->CheckProperties();
   vtkPolyData* input = block.input();
-  quadrille::AskedConstraints asked;
-  std::optional<quadrille::ConvertedSurface> converted;
-  quadrille::QuadProblem problem = this->MakeQuadProblem(block, converted, asked);
-  const quadrille::RemeshOptions& options = problem.options;
-  quadrille::LevelMemory* memory =
-    this->KeepLevels ? &block.state->memoryAs<quadrille::LevelMemory>() : nullptr;
-  if (memory != nullptr)
-  {
-    problem.store = &memory->levels;
-    problem.options.knownMap =
-      options.mergeCharts ? memory->mapped.mapFor(input, this->TextureCoordinates) : 0;
-  }
-  const quadrille::QuadsMade made = quadrille::remesh(problem);
+  const std::unique_ptr<quadrille::PreparedRun> run = this->MakeRun(block);
+  std::optional<quadrille::ConvertedSurface>& converted = run->converted;
+  quadrille::AskedConstraints& asked = run->asked;
+  const quadrille::RemeshOptions& options = run->problem.options;
+  auto* memory = static_cast<quadrille::LevelMemory*>(run->memory.get());
+  const quadrille::QuadsMade& made = *run->made;
   if (!converted)
   {
     converted = this->ConvertForPieces(block);
@@ -413,6 +423,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";
   os << indent << "WarmStart: " << this->WarmStart << "\n";
   os << indent << "Preview: " << this->Preview << "\n";
+  os << indent << "InBackground: " << this->InBackground << "\n";
   os << indent << "Conforming: " << this->Conforming << "\n";
   os << indent << "ReusedStagesText: " << this->GetReusedStagesText() << "\n";
   os << indent << "RememberedMegabytes: " << this->GetRememberedMegabytes() << "\n";

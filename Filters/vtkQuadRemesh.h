@@ -76,16 +76,19 @@
 #include "vtkQuadrilleSymmetryAlgorithm.h"
 
 #include <cstdint>  // for std::uint8_t
+#include <memory>   // for std::unique_ptr
 #include <optional> // for std::optional
 
 class vtkTable;
 
 namespace quadrille
 {
+class BackgroundRun;
 struct JoinedParts;
 struct JointSheets;
 struct MetSheets;
 struct PartContacts;
+struct PreparedRun;
 struct QuadProblem;
 struct RunOfBlock;
 struct SurfaceInput;
@@ -547,12 +550,28 @@ public:
   void RemoveAllConstraints() { this->SetInputConnection(6, nullptr); }
   ///@}
 
+  /// With InBackground on an execution leaves the run to a thread of its own and ends at once, with the outcome
+  /// Underway and the outputs as they were. The next execution with the same inputs and properties makes the outputs of that
+  /// run, one with others stops it. Not done with composite data, on several ranks, and from kTrianglesWorthPieces on
+  /// (Core/Ways): there an execution is as ever. The quads are the same. Default: off. It is no property of the result.
+  void SetInBackground(vtkTypeBool on) { this->InBackground = on; }
+  vtkTypeBool GetInBackground() const { return this->InBackground; }
+
+  /// Whether a run in the background has not ended; how far it is, in hundredths; asks it to end, which it does soon.
+  vtkTypeBool GetIsUnderway() const;
+  int GetUnderwayProgress() const;
+  void StopUnderway();
+  /// Switches InBackground off, and lets the next execution take what was made, waiting for it where it is not over.
+  void TakeUnderway();
+
 protected:
   vtkQuadRemesh();
   ~vtkQuadRemesh() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   const char* GetBlockType(int outputPort) const override;
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void Execute(quadrille::Block& block) override;
   bool JoinsBlocks() const override { return this->Conforming != 0; }
   std::vector<Together> FindTogether(const std::vector<quadrille::Block*>& blocks) override;
@@ -576,10 +595,13 @@ private:
 
   void CheckProperties() const;
   quadrille::RemeshOptions MakeRunOptions(const quadrille::Block& block);
-  /// The block with what the properties ask for. converted, asked: filled when the surface is asked for as a whole;
-  /// all of it has to be there as long as the problem.
-  quadrille::QuadProblem MakeQuadProblem(quadrille::Block& block,
-    std::optional<quadrille::ConvertedSurface>& converted, quadrille::AskedConstraints& asked);
+  /// The block with what the properties ask for; the surface is converted when it is asked for as a whole. The block
+  /// has to be there as long as the run.
+  std::unique_ptr<quadrille::PreparedRun> PrepareRun(quadrille::Block& block);
+  /// Has the quads of the block made, here or in the background; throws Underway.
+  std::unique_ptr<quadrille::PreparedRun> MakeRun(quadrille::Block& block);
+  std::unique_ptr<quadrille::PreparedRun> TakeFromBackground();
+  bool GoesToBackground(const quadrille::Block& block) const;
   /// Symmetry, and where cell data come from.
   void SetWishes(quadrille::QuadProblem& problem) const;
   void TellRun(quadrille::Block& block, const quadrille::RemeshResult& result);
@@ -642,6 +664,9 @@ private:
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
   std::string RemedyText;
+  vtkTypeBool InBackground = 0;
+  double RememberedBefore = 0; ///< megabytes, when the run in the background began
+  std::unique_ptr<quadrille::BackgroundRun> Background;
 };
 
 #endif

@@ -3,17 +3,19 @@
 #include "vtkQuadRemesh.h"
 
 #include "Blocks/Blocks.h"
+#include "Blocks/LevelMemory.h"
 #include "Constraints/Constraints.h"
 #include "Convert/PolyData.h"
 #include "Pipeline/Options.h"
 #include "Ranks/Spread.h"
+#include "Runs/BackgroundRun.h"
 #include "Runs/InPieces.h"
 #include "Ways/Ways.h"
 
 #include "vtkPolyData.h"
 
 #include <cstddef>
-#include <optional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,19 +65,20 @@ void vtkQuadRemesh::SetWishes(quadrille::QuadProblem& problem) const
 }
 
 //------------------------------------------------------------------------------
-quadrille::QuadProblem vtkQuadRemesh::MakeQuadProblem(quadrille::Block& block,
-  std::optional<quadrille::ConvertedSurface>& converted, quadrille::AskedConstraints& asked)
+std::unique_ptr<quadrille::PreparedRun> vtkQuadRemesh::PrepareRun(quadrille::Block& block)
 {
-  quadrille::QuadProblem problem;
+  auto run = std::make_unique<quadrille::PreparedRun>();
+  run->inputs = block.inputs;
+  quadrille::QuadProblem& problem = run->problem;
   vtkPolyData* input = block.input();
   quadrille::GivenSurface& surface = problem.surface;
   surface.polygons = static_cast<std::size_t>(input->GetNumberOfPolys());
   surface.triangles = [input] { return quadrille::trianglesOf(input); };
   surface.whyNotCut = this->WhyNotCut(block);
-  surface.whole = [this, &block, &converted, &asked]
+  surface.whole = [this, &block, made = run.get()]
   {
-    converted = this->ConvertInputs(block, &asked);
-    return std::move(converted->input);
+    made->converted = this->ConvertInputs(block, &made->asked);
+    return std::move(made->converted->input);
   };
   problem.options = this->MakeRunOptions(block);
   problem.options.leavesOutFailed = this->FailedComponents == LEAVE_OUT_FAILED_COMPONENTS;
@@ -83,8 +86,93 @@ quadrille::QuadProblem vtkQuadRemesh::MakeQuadProblem(quadrille::Block& block,
   // Joined pieces are thinned out already.
   problem.thinning = quadrille::isJoined(input) ? quadrille::Thinning::Never
                                                 : static_cast<quadrille::Thinning>(this->Pieces);
-  problem.placed = &asked.placed;
-  return problem;
+  problem.placed = &run->asked.placed;
+  if (this->KeepLevels)
+  {
+    auto& memory = block.state->memoryAs<quadrille::LevelMemory>();
+    run->memory = block.state->memory;
+    problem.store = &memory.levels;
+    problem.options.knownMap =
+      problem.options.mergeCharts ? memory.mapped.mapFor(input, this->TextureCoordinates) : 0;
+  }
+  return run;
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadRemesh::GoesToBackground(const quadrille::Block& block) const
+{
+  return this->InBackground && this->RunsAlone() && block.path.empty() &&
+    static_cast<std::size_t>(block.input()->GetNumberOfPolys()) < quadrille::kTrianglesWorthPieces;
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<quadrille::PreparedRun> vtkQuadRemesh::MakeRun(quadrille::Block& block)
+{
+  if (this->Background && this->Background->isFor(block.wanted))
+  {
+    if (this->InBackground && !this->Background->isOver())
+    {
+      throw quadrille::Underway();
+    }
+    return this->TakeFromBackground();
+  }
+  this->Background.reset(); // of other settings
+  std::unique_ptr<quadrille::PreparedRun> run = this->PrepareRun(block);
+  if (!this->GoesToBackground(block))
+  {
+    run->made = quadrille::remesh(run->problem);
+    return run;
+  }
+  // What the filter reads and tells belongs to this thread.
+  run->problem.surface.whole = [surface = run->problem.surface.whole()]() mutable
+  { return std::move(surface); };
+  run->notices = this->GetBlockNotices();
+  this->RememberedBefore = this->GetRememberedMegabytes();
+  this->Background =
+    std::make_unique<quadrille::BackgroundRun>(std::move(run), block.wanted, this->TimeLimit);
+  throw quadrille::Underway();
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<quadrille::PreparedRun> vtkQuadRemesh::TakeFromBackground()
+{
+  const std::unique_ptr<quadrille::BackgroundRun> background = std::move(this->Background);
+  std::unique_ptr<quadrille::PreparedRun> run = background->take();
+  if (background->hasRunOutOfTime())
+  {
+    this->NoteTimeIsOver();
+  }
+  this->SetNotices(run->notices);
+  return run;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkQuadRemesh::GetIsUnderway() const
+{
+  return this->Background && !this->Background->isOver() ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadRemesh::GetUnderwayProgress() const
+{
+  constexpr double hundredths = 100;
+  return this->Background ? static_cast<int>(hundredths * this->Background->progress()) : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::TakeUnderway()
+{
+  this->InBackground = 0;
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::StopUnderway()
+{
+  if (this->Background)
+  {
+    this->Background->stop();
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -201,6 +201,7 @@ int vtkQuadrilleAlgorithm::RequestData(
     return 1;
   }
   this->IsRoot = run.ranks.isRoot();
+  this->IsAlone = run.ranks.size() == 1;
   const quadrille::PollScope scope(
     [this](double, const std::string&) { return this->ShowProgressAndGoOn(); });
   try
@@ -418,6 +419,12 @@ void vtkQuadrilleAlgorithm::SetCertificate(const quadrille::Certificate& certifi
 void vtkQuadrilleAlgorithm::AddNotice(const std::string& text)
 {
   this->Report->notices.push_back(text);
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::SetNotices(const std::vector<std::string>& notices)
+{
+  this->Report->notices = notices;
 }
 
 //------------------------------------------------------------------------------

@@ -68,7 +68,8 @@ public:
     NoValidResult, ///< the stages ended without a valid result
     Aborted,       ///< the user asked to stop
     TimedOut,      ///< TimeLimit was reached
-    TooLarge       ///< the result would exceed MaximumNumberOfQuads
+    TooLarge,      ///< the result would exceed MaximumNumberOfQuads
+    Underway       ///< it is being made in the background
   };
 
   /// See SetRankIndependent().
@@ -239,8 +240,12 @@ protected:
   /// The stage was stopped and has the best so far, which becomes the block's result: from now on nothing asks to stop
   /// any more until the block is done.
   void KeepSoFar() { this->IsBlockSoFar = true; }
+  /// On one rank.
+  bool RunsAlone() const { return this->IsAlone; }
+  void NoteTimeIsOver() { this->TimeIsOver = true; } ///< of a run in the background
   /// A notice of something that the user asked for and does not get: a warning, too.
   void AddWarning(const std::string& text);
+  void SetNotices(const std::vector<std::string>& notices);
   void SetResult(const std::string& text);
   const std::vector<std::string>& GetBlockNotices() const;
   ///@}
@@ -311,6 +316,7 @@ private:
   double BlockEnd = 1;
   std::chrono::steady_clock::time_point Started;
   quadrille::SharedStop* Stop = nullptr; ///< while each rank works on its own blocks
+  bool IsAlone = true;
   bool IsRoot = true; ///< of the ranks of the last execution; it alone prints messages
   std::map<std::string, std::unique_ptr<quadrille::BlockState>>
     States;                                    ///< by place and name of the block

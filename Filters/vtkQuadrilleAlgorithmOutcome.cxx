@@ -120,6 +120,10 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
     reports.emplace_back(run.works.size() > 1 ? work.block.name : "", work.block.state->report);
   }
   this->SetReports(reports);
+  if (this->Outcome == Underway)
+  {
+    return 1; // with what was made before
+  }
   if (this->Outcome == Aborted)
   {
     // No error: it is what the user asked for. Returning 0 leaves the filter out of date.
@@ -194,6 +198,7 @@ void vtkQuadrilleAlgorithm::SetReports(
     const std::string made = report.result.empty() ? "Done" : report.result;
     const std::string verdict = report.isSoFar ? made + "; " + report.outcomeText
       : report.outcome == Succeeded            ? made
+      : report.outcome == Underway             ? "Underway: " + report.outcomeText
                                                : "Failed: " + report.outcomeText;
     addLines(this->ResultText, name, verdict);
     const bool isWell = report.outcome == Succeeded && !report.hasDefect;

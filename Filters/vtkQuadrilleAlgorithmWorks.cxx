@@ -6,6 +6,7 @@
 #include "Blocks/BlockRun.h"
 #include "Blocks/Blocks.h"
 #include "Common/Report.h"
+#include "Runs/BackgroundRun.h"
 
 #include "vtkDataObjectTypes.h"
 #include "vtkPolyData.h"
@@ -137,6 +138,7 @@ void vtkQuadrilleAlgorithm::RunTogether(
       this->PrepareOutputs(work->block);
       blocks.push_back(&work->block);
     }
+    first.block.wanted = this->ResultFor(first);
     works.size() == 1 ? this->ExecuteBlock(first.block) : this->ExecuteTogether(blocks);
     for (Work* work : works)
     {
@@ -174,6 +176,11 @@ void vtkQuadrilleAlgorithm::FailBlockBy(
   try
   {
     std::rethrow_exception(failure);
+  }
+  catch (const quadrille::Underway& underway)
+  {
+    this->FailBlock(state, Underway, underway.what());
+    state.report.mayPass = true;
   }
   catch (const quadrille::InvalidInput& error)
   {
@@ -279,7 +286,7 @@ void vtkQuadrilleAlgorithm::FailBlock(
 void vtkQuadrilleAlgorithm::ShowFailure(quadrille::Block& block)
 {
   quadrille::BlockReport& report = block.state->report;
-  if (report.outcome != Aborted)
+  if (report.outcome != Aborted && report.outcome != Underway)
   {
     block.state->problems = this->MakeProblems(block);
     report.showsFailure = block.state->problems != nullptr && !report.mayPass;

@@ -454,7 +454,8 @@ void vtkSMQuadConstraintProxy::Follow()
     vtkSMUncheckedPropertyHelper helper(this, points.Name.c_str());
     this->SendPoints(points, valuesOf(helper));
   }
-  this->ShowPreview(filter);
+  this->BeginPreview(filter);
+  updateViews(manager);
   this->IsBusy = false;
 }
 
@@ -477,24 +478,41 @@ void vtkSMQuadConstraintProxy::SendPoints(
 }
 
 //------------------------------------------------------------------------------
-void vtkSMQuadConstraintProxy::ShowPreview(vtkSMProxy* filter)
+void vtkSMQuadConstraintProxy::BeginPreview(vtkSMProxy* filter)
 {
   this->IsFollowing = true;
   this->Filter = filter;
   invoke(filter, "SetPreview", 1);
   this->MarkModified(this);
-  updateViews(this->GetSessionProxyManager());
+  filter->MarkModified(filter);
 }
 
 //------------------------------------------------------------------------------
-bool vtkSMQuadConstraintProxy::PreviewWith(const std::vector<double>& coordinates)
+void vtkSMQuadConstraintProxy::Join(vtkSMProxy* filter, const char* method)
 {
-  vtkSMProxy* filter = this->ConnectedFilter();
-  if (this->IsBusy || !filter || !hasPreview(filter))
+  constexpr int constraints = 6; // input of vtkQuadRemesh
+  vtkClientServerStream stream;
+  stream << vtkClientServerStream::Invoke << VTKOBJECT(this) << "GetOutputPort" << 0
+         << vtkClientServerStream::End;
+  stream << vtkClientServerStream::Invoke << VTKOBJECT(filter) << method << constraints
+         << vtkClientServerStream::LastResult << vtkClientServerStream::End;
+  filter->GetSession()->ExecuteStream(filter->GetLocation(), stream);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMQuadConstraintProxy::SendPreview(
+  vtkSMProxy* filter, const std::vector<double>& coordinates)
+{
+  if (this->IsBusy || !hasPreview(filter))
   {
     return false;
   }
   this->IsBusy = true;
+  if (this->ConnectedFilter() != filter && this->Joined != filter)
+  {
+    this->Joined = filter;
+    this->Join(filter, "AddInputConnection");
+  }
   auto next = coordinates.begin();
   for (const PointsProperty& points : this->PointsProperties)
   {
@@ -503,7 +521,7 @@ bool vtkSMQuadConstraintProxy::PreviewWith(const std::vector<double>& coordinate
     this->SendPoints(points, std::vector<double>(next, end));
     next = end;
   }
-  this->ShowPreview(filter);
+  this->BeginPreview(filter);
   this->IsBusy = false;
   return true;
 }
@@ -547,6 +565,12 @@ void vtkSMQuadConstraintProxy::EndFollowing()
   if (this->Filter)
   {
     invoke(this->Filter, "SetPreview", vtkSMPropertyHelper(this->Filter, "Preview").GetAsInt());
+    this->Filter->MarkModified(this->Filter);
+  }
+  if (this->Joined)
+  {
+    this->Join(this->Joined, "RemoveInputConnection");
+    this->Joined = nullptr;
   }
   // What the object has been given does not show in the properties, so they are sent whether they have changed or not.
   for (const PointsProperty& points : this->PointsProperties)

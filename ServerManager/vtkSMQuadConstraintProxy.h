@@ -62,9 +62,11 @@ public:
   /// The Quad Remesh that has it as a constraint; null where there is none.
   vtkSMProxy* GetFilter() { return this->ConnectedFilter(); }
 
-  /// Makes a preview of the quads with other points, which do not become those of the properties; it ends when
-  /// properties are applied. Whether there is one.
-  bool PreviewWith(const std::vector<double>& coordinates);
+  /// Lets the next execution of the filter be a preview with other points, which do not become those of the properties,
+  /// whether this is one of its constraints or not. Whether the filter has previews. It ends when properties are
+  /// applied, or by EndPreview.
+  bool SendPreview(vtkSMProxy* filter, const std::vector<double>& coordinates);
+  void EndPreview() { this->EndFollowing(); }
 
 protected:
   vtkSMQuadConstraintProxy();
@@ -101,7 +103,8 @@ private:
   void Attach();
   vtkSMProxy* ConnectedFilter();
   void SendPoints(const PointsProperty& points, const std::vector<double>& coordinates);
-  void ShowPreview(vtkSMProxy* filter);
+  void BeginPreview(vtkSMProxy* filter);
+  void Join(vtkSMProxy* filter, const char* method);
   bool IsChanging(); ///< what the panel shows is not applied yet
   void Follow();
   void EndFollowing();
@@ -111,6 +114,7 @@ private:
   vtkWeakPointer<vtkSMProxy> Filter; ///< that it belongs to when it is made
   bool IsAttached = false;           ///< or need not be
   bool IsFollowing = false;
+  vtkWeakPointer<vtkSMProxy> Joined; ///< a filter that has it as a constraint for previews only
   bool IsBusy = false;
 };
 

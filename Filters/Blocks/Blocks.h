@@ -79,7 +79,7 @@ struct EarlierResult
 struct BlockState
 {
   BlockReport report;
-  std::unique_ptr<BlockMemory> memory;
+  std::shared_ptr<BlockMemory> memory; ///< also of a run in the background
   std::vector<vtkSmartPointer<vtkDataObject>>
     lastResult; ///< by port; shares its arrays with the outputs
   /// Times of the filter and the block's inputs at its last success; empty where there was none.
@@ -109,7 +109,7 @@ struct BlockState
   {
     if (!memory)
     {
-      memory = std::make_unique<Memory>();
+      memory = std::make_shared<Memory>();
     }
     return static_cast<Memory&>(*memory);
   }
@@ -125,6 +125,7 @@ struct Block
   std::vector<vtkSmartPointer<vtkDataObject>>
     outputs; ///< by port; empty objects that the filter fills
   BlockState* state = nullptr;
+  EarlierResult wanted; ///< what its result depends on, where it is made by itself
   /// Its part of the area of all blocks; 1 where it is the only one.
   double areaShare = 1;
   /// Diagonal of the box round all blocks; 0 where it is the only one.

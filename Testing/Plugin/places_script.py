@@ -28,6 +28,11 @@ def output(port):
     return quads().GetClientSideObject().GetOutputDataObject(port)
 
 
+def is_made():
+    """Whether no quads are being made in the background."""
+    return not quads() or not quads().GetClientSideObject().GetInBackground()
+
+
 def edge_length():
     """Mean of the edges of all quads."""
     data = output(0)

@@ -72,9 +72,10 @@ class Session(test_places.Session):
         self.settle()
 
     def settle(self):
-        """What was drawn is made once the events of the mouse are over."""
+        """What was drawn is made once the events of the mouse are over, in the background."""
         for _ in range(2):
             self.ask("pass", seconds=180)
+        self.wait_until("is_made()", seconds=180)
 
     def places(self, chance, count):
         found = []
@@ -332,6 +333,13 @@ def check_bar(session):
     session.xdotool("mousemove", *session.middle(), "sleep", 0.5)
     coloured = [saturation(session, name) for name in TOOLS]
     session.shot("draw-bar-quads")
+    for key, there in (("ctrl+z", False), ("ctrl+y", True)):
+        session.xdotool("mousemove", *session.middle(), "key", key, "sleep", 1)
+        session.settle()
+        if session.value("quads() is not None") != there:
+            print(f"BAD: after {key} there is {'no' if there else 'still a'} Quad Remesh")
+            return 1
+    session.wait_for_quads()
     fine = max(grey) < 30 and min(coloured) > 60 and moved
     print(f"tool bar: saturation without a Quad Remesh {grey}, with it {coloured}; camera moved {moved}: "
           f"{'fine' if fine else 'BAD'}", flush=True)
@@ -376,6 +384,52 @@ def check_handles(session, chance, count):
               f"{ring} and {after} pixels, undone {back}{'' if fine else '  BAD'}", flush=True)
         bad += not fine
     session.ask("clear()")
+    return bad
+
+
+def check_ball(session, chance):
+    """The quads follow a ball that is dragged; Escape while the button is down brings them back."""
+    session.ask("clear()")
+    session.look(270, 20)
+    session.take("Move")
+    start = chance.choice(visible_balls(session, chance, 1))[0]
+    goal = [p for p, _ in session.places(chance, 12) if 40 < math.dist(p, start) < 250][0]
+    before = session.value("bytes_of(quads())")
+    session.xdotool("mousemove", *session.screen([round(c) for c in start]), "sleep", 0.1, "mousedown", 1)
+    followed = 0
+    for k in range(1, 6):
+        session.xdotool("mousemove", *session.screen([round(a + (b - a) * k / 5) for a, b in zip(start, goal)]))
+        session.settle()
+        followed += session.value("bytes_of(quads())") != before
+    session.shot("draw-ball")
+    session.xdotool("key", "Escape", "mouseup", 1)
+    session.settle()
+    fine = followed > 2 and session.value("bytes_of(quads())") == before and session.drawn() is None
+    print(f"ball: {followed} previews of 5, as before after Escape: {'fine' if fine else 'BAD'}", flush=True)
+    return not fine
+
+
+def check_stop(session, chance):
+    """Escape while quads are made stops them and takes the action back; so does a newer one, which is made."""
+    bad = 0
+    for way in ("Escape", "another one"):
+        session.ask("clear(); quads().NumberOfQuads = 60000; simple.Render(view)", seconds=120)
+        session.look(270, 20)
+        before = session.value("bytes_of(quads())")
+        session.take("Valence")
+        pixels = [p[0] for p in session.places(chance, 2)]
+        session.xdotool("mousemove", *session.screen(pixels[0]), "sleep", 0.2, "click", 1, "sleep", 0.2)
+        if way == "Escape":
+            session.xdotool("key", "Escape")
+        else:
+            session.press(pixels[1])
+        session.settle()
+        count = len(session.value("constraints()"))
+        fine = (count == 0 and session.value("bytes_of(quads())") == before) if way == "Escape" else count == 2
+        session.xdotool("key", "Escape")
+        print(f"quads that are being made and {way}: {count} constraints: {'fine' if fine else 'BAD'}", flush=True)
+        bad += not fine
+    session.ask("clear(); quads().NumberOfQuads = 5000; simple.Render(view)")
     return bad
 
 
@@ -446,7 +500,7 @@ def main():
                 for name in options.tools:
                     wrong = try_tool(session, name, random.Random(options.seed), options.places)
                     bad += wrong if wrong > (1 - BAR) * options.places else 0
-                for check in (check_escape, check_camera, check_undo):
+                for check in (check_escape, check_camera, check_undo, check_ball, check_stop):
                     bad += check(session, random.Random(options.seed + 1))
                 bad += check_handles(session, random.Random(options.seed + 3), options.places)
             except BaseException:

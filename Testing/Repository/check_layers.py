@@ -52,7 +52,7 @@ FILTERS_MAY_INCLUDE = {
     "ElementGrids": ["Convert"],
     "Files": ["ElementGrids"],
     "Stages": ["Blocks"],  # what stage filters hand to each other
-    "Runs": ["Constraints"],  # what a run made, as VTK data
+    "Runs": ["Constraints", "Blocks"],  # runs in the background, and what a run made, as VTK data
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 

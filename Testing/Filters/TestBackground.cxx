@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestSurfaces.h"
+
+#include <vtkPoints.h>
+#include <vtkQuadRemesh.h>
+#include <vtkTrivialProducer.h>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace quadrille
+{
+namespace
+{
+
+std::vector<double> placesOf(vtkPolyData* data)
+{
+  std::vector<double> places;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    const double* p = data->GetPoint(i);
+    places.insert(places.end(), p, p + 3);
+  }
+  return places;
+}
+
+void wait(vtkQuadRemesh* filter)
+{
+  while (filter->GetIsUnderway())
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+/// As the window does it.
+void updateInBackground(vtkQuadRemesh* filter)
+{
+  filter->SetInBackground(1);
+  filter->Update();
+  wait(filter);
+  filter->TakeUnderway();
+  filter->Update();
+}
+
+TEST(QuadsInBackground, AreTheSame)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
+  for (const vtkIdType quads : { 400, 900 })
+  {
+    vtkNew<vtkQuadRemesh> here;
+    here->SetInputData(input);
+    here->SetNumberOfQuads(quads);
+    here->Update();
+    vtkNew<vtkQuadRemesh> background;
+    background->SetInputData(input);
+    background->SetNumberOfQuads(quads);
+    updateInBackground(background);
+    EXPECT_EQ(background->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+    EXPECT_EQ(placesOf(here->GetOutput()), placesOf(background->GetOutput()));
+    EXPECT_EQ(placesOf(here->GetMappedSurface()), placesOf(background->GetMappedSurface()));
+    EXPECT_STREQ(here->GetResultText(), background->GetResultText());
+    EXPECT_STREQ(here->GetNoticesText(), background->GetNoticesText());
+  }
+}
+
+TEST(QuadsInBackground, LeaveTheOutputsAsTheyWereUntilTheyAreTaken)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  filter->SetInputData(test::toPolyData(test::torus(60, 30)));
+  filter->SetNumberOfQuads(400);
+  filter->Update();
+  const std::vector<double> before = placesOf(filter->GetOutput());
+  filter->SetInBackground(1);
+  filter->SetNumberOfQuads(900);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Underway);
+  EXPECT_EQ(placesOf(filter->GetOutput()), before);
+  EXPECT_GT(filter->GetRememberedMegabytes(), 0);
+  filter->TakeUnderway();
+  filter->Update(); // waits
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  EXPECT_NE(placesOf(filter->GetOutput()), before);
+}
+
+TEST(QuadsInBackground, OfOtherPropertiesTakeTheirPlace)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
+  vtkNew<vtkQuadRemesh> filter;
+  filter->SetInputData(input);
+  filter->SetInBackground(1);
+  for (const vtkIdType quads : { 20000, 400 })
+  {
+    filter->SetNumberOfQuads(quads);
+    filter->Update();
+  }
+  wait(filter);
+  filter->TakeUnderway();
+  filter->Update();
+  vtkNew<vtkQuadRemesh> here;
+  here->SetInputData(input);
+  here->SetNumberOfQuads(400);
+  here->Update();
+  EXPECT_EQ(placesOf(here->GetOutput()), placesOf(filter->GetOutput()));
+}
+
+TEST(QuadsInBackground, CanBeStopped)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  filter->SetInputData(test::toPolyData(test::torus(200, 100)));
+  filter->SetNumberOfQuads(400);
+  filter->Update();
+  const std::vector<double> before = placesOf(filter->GetOutput());
+  filter->SetInBackground(1);
+  filter->SetNumberOfQuads(30000);
+  filter->Update();
+  filter->StopUnderway();
+  wait(filter);
+  filter->SetNumberOfQuads(400); // taken back
+  filter->TakeUnderway();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  EXPECT_EQ(placesOf(filter->GetOutput()), before);
+}
+
+TEST(QuadsInBackground, ThatFailAreToldWhenTheyAreTaken)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::gridPlane(4, 4));
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  filter->SetInputData(input);
+  filter->SetMaximumNumberOfQuads(10);
+  filter->SetNumberOfQuads(1000);
+  updateInBackground(filter);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::TooLarge);
+  EXPECT_NE(messages.errors.find(filter->GetOutcomeText()), std::string::npos);
+
+  vtkNew<vtkQuadRemesh> broken; // found before a thread is begun
+  const test::Messages told(broken);
+  input->GetPoints()->SetPoint(7, 0, std::nan(""), 0);
+  input->Modified();
+  broken->SetInputData(input);
+  updateInBackground(broken);
+  EXPECT_EQ(broken->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+}
+
+} // namespace
+} // namespace quadrille
