@@ -551,9 +551,10 @@ public:
   ///@}
 
   /// With InBackground on an execution leaves the run to a thread of its own and ends at once, with the outcome
-  /// Underway and the outputs as they were. The next execution with the same inputs and properties makes the outputs of that
-  /// run, one with others stops it. Not done with composite data, on several ranks, and from kTrianglesWorthPieces on
-  /// (Core/Ways): there an execution is as ever. The quads are the same. Default: off. It is no property of the result.
+  /// Underway and the outputs as they were. The next execution with the same inputs and properties makes the outputs of
+  /// that run, one with others stops it. Not done with composite data, on several ranks, and from
+  /// kTrianglesWorthPieces on (Core/Ways): there an execution is as ever. The quads are the same. Default: off. It is no
+  /// property of the result.
   void SetInBackground(vtkTypeBool on) { this->InBackground = on; }
   vtkTypeBool GetInBackground() const { return this->InBackground; }
 
