@@ -248,9 +248,13 @@ void pqQuadrilleDrawing::showPath()
 //-----------------------------------------------------------------------------
 bool pqQuadrilleDrawing::onPress(vtkObject*, unsigned long, void*)
 {
-  if (this->IsBusy || this->IsDrawing)
+  if (this->IsDrawing)
   {
     return true;
+  }
+  if (this->IsBusy)
+  {
+    this->finish(); // on a busy computer the next press comes before
   }
   vtkRenderWindowInteractor* interactor = this->viewProxy()->GetInteractor();
   if (interactor->GetShiftKey() || interactor->GetControlKey() || interactor->GetAltKey())
@@ -383,6 +387,10 @@ void pqQuadrilleDrawing::stopDrawing()
 //-----------------------------------------------------------------------------
 void pqQuadrilleDrawing::finish()
 {
+  if (!this->IsBusy)
+  {
+    return; // done already
+  }
   vtkSMSourceProxy* surface = this->Surface;
   if (this->View && surface && !this->Path.empty())
   {
@@ -639,7 +647,8 @@ void pqQuadrilleDrawing::letGo()
   ball->Move->EndPreview();
   if (this->View && ball->Filter)
   {
-    pqQuadrilleRun::instance()->startPreview(ball->Filter, [](pqQuadrilleRun::End) {});
+    pqQuadrilleRun::instance()->dropPreview(ball->Filter);
+    this->View->render();
   }
 }
 
@@ -655,6 +664,12 @@ void pqQuadrilleDrawing::finishMove(vtkSMSourceProxy* filter)
     say("That was a click: drag the ball to where it is to go.");
     return;
   }
+  if (this->Ball->Move)
+  {
+    // Where it goes is a place on the quads as they were, whatever preview there is.
+    this->Ball->Move->EndPreview();
+    pqQuadrilleRun::instance()->dropPreview(filter);
+  }
   const std::optional<Place> to = this->placeOfBall();
   if (!to)
   {
@@ -662,10 +677,6 @@ void pqQuadrilleDrawing::finishMove(vtkSMSourceProxy* filter)
     return;
   }
   const Place from = this->Ball->From;
-  if (this->Ball->Move)
-  {
-    this->Ball->Move->EndPreview();
-  }
   this->Ball.reset();
   this->perform(filter,
     { "QuadMove", { { "From", coordinatesOf({ from }) }, { "To", coordinatesOf({ *to }) } } });

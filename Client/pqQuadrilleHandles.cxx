@@ -209,7 +209,7 @@ bool pqQuadrilleHandles::onPress(vtkObject*, unsigned long, void*)
   }
   this->Dragged = this->pointUnderMouse(filter);
   this->HasMoved = false;
-  this->Shown = this->Points;
+  this->IsReleased = false;
   return this->Dragged.has_value();
 }
 
@@ -230,6 +230,13 @@ bool pqQuadrilleHandles::onRelease(vtkObject*, unsigned long, void*)
   {
     return this->IsBusy;
   }
+  // Where it goes is a place on the quads as they were, whatever preview there is.
+  this->IsReleased = true;
+  if (auto* filter = vtkSMSourceProxy::SafeDownCast(this->Constraint->GetFilter()))
+  {
+    this->Constraint->EndPreview();
+    pqQuadrilleRun::instance()->dropPreview(filter);
+  }
   this->glide();
   this->Glide.stop();
   this->IsBusy = true;
@@ -240,7 +247,9 @@ bool pqQuadrilleHandles::onRelease(vtkObject*, unsigned long, void*)
 //-----------------------------------------------------------------------------
 void pqQuadrilleHandles::glide()
 {
-  if (!this->Dragged || !this->Constraint || !this->View)
+  // While a preview is being made the mouse moves on; the next one is of where it is then.
+  if (!this->Dragged || !this->Constraint || !this->View ||
+    pqQuadrilleRun::instance()->isUnderway())
   {
     return;
   }
@@ -250,28 +259,14 @@ void pqQuadrilleHandles::glide()
     quadrille::placesUnder(this->viewProxy(), { pixel }, surface).front();
   if (!place || *place == this->Points[*this->Dragged])
   {
-    this->follow();
     return; // beside the surface it stays where it was last
   }
   this->HasMoved = true;
   this->Points[*this->Dragged] = *place;
   this->showRings();
-  this->follow();
-}
-
-//-----------------------------------------------------------------------------
-void pqQuadrilleHandles::follow()
-{
-  auto* filter =
-    this->Constraint ? vtkSMSourceProxy::SafeDownCast(this->Constraint->GetFilter()) : nullptr;
-  // While a preview is being made the mouse moves on; the next one is of where it is then.
-  if (!this->Dragged || !filter || pqQuadrilleRun::instance()->isUnderway() ||
-    this->Shown == this->Points)
-  {
-    return;
-  }
-  this->Shown = this->Points;
-  if (this->Constraint->SendPreview(filter, coordinatesOf(this->Points)))
+  auto* filter = vtkSMSourceProxy::SafeDownCast(this->Constraint->GetFilter());
+  if (filter && !this->IsReleased &&
+    this->Constraint->SendPreview(filter, coordinatesOf(this->Points)))
   {
     pqQuadrilleRun::instance()->startPreview(
       filter, [this](pqQuadrilleRun::End) { this->Glide.start(); });

@@ -54,8 +54,6 @@ private:
   /// The point whose ring is under the mouse, where it is not behind what is seen.
   std::optional<std::size_t> pointUnderMouse(vtkSMSourceProxy* filter) const;
   void glide();
-  /// A preview of the points as they are.
-  void follow();
   void finish();
 
   quadrille::Pixel mouse() const;
@@ -70,9 +68,9 @@ private:
   std::vector<quadrille::Place> Points;
   std::optional<std::size_t> Dragged;
   bool HasMoved = false;
-  bool IsBusy = false;                 ///< what was dragged is being applied
-  std::vector<quadrille::Place> Shown; ///< points of the last preview
-  QTimer Glide;                        ///< moves of the mouse come faster than places are found
+  bool IsBusy = false;    ///< what was dragged is being applied
+  bool IsReleased = true; ///< the button
+  QTimer Glide;           ///< moves of the mouse come faster than places are found
 };
 
 #endif

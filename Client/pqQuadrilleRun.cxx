@@ -46,6 +46,22 @@ double shownTime()
   return proxy ? vtkSMPropertyHelper(proxy, "ViewTime").GetAsDouble() : 0;
 }
 
+void update(vtkSMSourceProxy* filter)
+{
+  filter->MarkModified(filter);
+  filter->UpdatePipeline(shownTime());
+}
+
+/// Also before anything is selected: where a filter has been executed, and the view not been drawn since, a selection
+/// of ParaView 5.11 finds nothing, and neither do those after it.
+void renderActive()
+{
+  if (pqView* view = pqActiveObjects::instance().activeView())
+  {
+    view->forceRender();
+  }
+}
+
 } // namespace
 
 pqQuadrilleRun::pqQuadrilleRun(QObject* parent) : Superclass(parent)
@@ -76,6 +92,20 @@ void pqQuadrilleRun::startPreview(vtkSMSourceProxy* filter, Then then)
 }
 
 //-----------------------------------------------------------------------------
+void pqQuadrilleRun::dropPreview(vtkSMSourceProxy* filter)
+{
+  if (this->Filter == filter)
+  {
+    this->Waiting.clear();
+    this->end(End::Stopped);
+  }
+  call(filter, "StopUnderway");
+  call(filter, "TakeUnderway");
+  update(filter); // a look-up
+  renderActive();
+}
+
+//-----------------------------------------------------------------------------
 void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
 {
   if (this->Filter && this->Filter != filter)
@@ -85,11 +115,15 @@ void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
   this->Filter = filter;
   this->Waiting.push_back(std::move(then));
   call(filter, "SetInBackground", 1);
-  filter->UpdatePipeline(shownTime());
+  update(filter);
   if (call(filter, "GetIsUnderway") == 0)
   {
     this->show();
     return;
+  }
+  if (this->IsTold) // something can be drawn meanwhile
+  {
+    renderActive();
   }
   if (!this->Timer.isActive())
   {
@@ -121,14 +155,10 @@ void pqQuadrilleRun::show()
 {
   vtkSMSourceProxy* filter = this->Filter;
   call(filter, "TakeUnderway");
-  filter->MarkModified(filter);
-  filter->UpdatePipeline(shownTime());
+  update(filter);
   this->end(End::Shown);
+  renderActive();
   pqView* active = pqActiveObjects::instance().activeView();
-  if (active)
-  {
-    active->forceRender();
-  }
   for (pqView* view : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqView*>())
   {
     if (view != active)

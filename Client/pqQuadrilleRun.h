@@ -42,6 +42,9 @@ public:
   /// The same for a preview, of which the status bar tells nothing, and which Escape does not stop.
   void startPreview(vtkSMSourceProxy* filter, Then then);
 
+  /// Ends a preview at once, without a picture of it: the quads of the filter are those of its properties again.
+  void dropPreview(vtkSMSourceProxy* filter);
+
   bool isUnderway() const { return this->Filter != nullptr; }
   void stop();
 

@@ -9,6 +9,7 @@ the mouse; for each the longest of these times is printed, and how many were lon
 is dragged it is counted how many pictures with other quads there were. No test of ctest, as it measures time.
 """
 import argparse
+import math
 import os
 import pathlib
 import random
@@ -88,8 +89,9 @@ def ball(session, chance, seconds):
     session.take("Move")
     start = tuple(round(c) for c in chance.choice(test_draw.visible_balls(session, chance, 1))[0])
     session.slow_drag(arc(start, goal_from(session, start, chance), round(seconds / 0.05)), seconds, "ball")
-    session.xdotool("key", "Escape")
     print("  ", session.word("move"), session.drawn())
+    session.shot("measured-ball-made")
+    session.xdotool("key", "Escape")
 
 
 def handle(session, chance, seconds):
@@ -99,7 +101,10 @@ def handle(session, chance, seconds):
     session.ask("simple.SetActiveSource(list(quads().Constraints)[-1])")
     time.sleep(1)
     start = tuple(round(c) for c in session.value("pixel_of(constraints()[-1][1][0])"))
-    session.slow_drag(arc(start, goal_from(session, start, chance), round(seconds / 0.05)), seconds, "handle")
+    goal = goal_from(session, start, chance)
+    seen = session.value(f"seen_at({goal!r})")
+    session.slow_drag(arc(start, goal, round(seconds / 0.05)), seconds, "handle")
+    print(f"   {math.dist(session.drawn()[1][0], seen) / session.edge:.3f} edge lengths off")
     session.ask("simple.SetActiveSource(quads())")
 
 
@@ -145,7 +150,7 @@ def main():
                 session.ask("clear()", seconds=120)
                 session.look(270, 10)
                 WALKS[name](session, random.Random(options.seed), options.drag)
-            session.shot("measured")
+                session.shot(f"measured-{name}")
         except BaseException:
             session.shot("measure-failure")
             raise
