@@ -76,6 +76,7 @@ const KindName kKinds[] = {
   { "QuadConnection", "Connection", "connection" },
   { "QuadLoop", "Loop", "cycle" },
   { "QuadFeatureCurve", "Feature", "feature curve" },
+  { "QuadClearedFeature", "Cleared feature", "cleared feature" },
 };
 
 const KindName& kindOf(const std::string& source)
@@ -107,8 +108,7 @@ QString hintOf(Tool tool)
              "Escape ends it.";
     case Tool::Feature:
       return "Feature: drag over the surface with the left button where edges of the quads are to "
-             "run. Escape ends "
-             "it.";
+             "run; click on a feature curve to clear it. Escape ends it.";
     default:
       return {};
   }
@@ -466,6 +466,11 @@ void pqQuadrilleDrawing::finishLine(vtkSMSourceProxy* filter)
 {
   if (quadrille::lengthOf(this->Path) < kClick * this->pixelRatio())
   {
+    if (this->Current == Tool::Feature)
+    {
+      this->finishClear(filter);
+      return;
+    }
     say("That was a click: press, drag along the surface, and release.");
     return;
   }
@@ -476,6 +481,27 @@ void pqQuadrilleDrawing::finishLine(vtkSMSourceProxy* filter)
   }
   const char* source = this->Current == Tool::Feature ? "QuadFeatureCurve" : "QuadStroke";
   this->perform(filter, { source, { { "Points", coordinatesOf(*line) } } });
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::finishClear(vtkSMSourceProxy* filter)
+{
+  const std::vector<Place> places = quadrille::placesOnFeatures(filter);
+  const double near = kSameBall * quadrille::edgeLength(filter).value_or(0);
+  const std::optional<std::size_t> found = quadrille::nearestSeen(this->viewProxy(), this->Surface,
+    places, this->Path.back(), kBallReach * this->pixelRatio(), near);
+  if (!found)
+  {
+    say("There is no feature curve here: click on one to clear it, or drag to draw one.");
+    return;
+  }
+  if (vtkSMSourceProxy* drawn = quadrille::featureCurveAt(filter, places[*found], near))
+  {
+    this->remove(filter, drawn);
+    return;
+  }
+  this->perform(
+    filter, { "QuadClearedFeature", { { "Point", coordinatesOf({ places[*found] }) } } });
 }
 
 //-----------------------------------------------------------------------------
@@ -787,9 +813,15 @@ void pqQuadrilleDrawing::removeLast()
                : "Select the Quad Remesh in the pipeline whose last constraint is to go.");
     return;
   }
-  const QString name = kindOf(last->GetXMLName()).name;
+  this->remove(filter, last);
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::remove(vtkSMSourceProxy* filter, vtkSMSourceProxy* constraint)
+{
+  const QString name = kindOf(constraint->GetXMLName()).name;
   BEGIN_UNDO_SET("Remove " + name);
-  quadrille::removeConstraint(filter, last);
+  quadrille::removeConstraint(filter, constraint);
   END_UNDO_SET();
   if (pqView* view = pqActiveObjects::instance().activeView())
   {

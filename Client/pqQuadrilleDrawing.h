@@ -87,6 +87,8 @@ private:
   /// A line along what was drawn; none, with a word to the user, where it cannot be had.
   std::optional<std::vector<quadrille::Place>> drawnLine(vtkSMSourceProxy* filter, bool isClosed);
   void finishLine(vtkSMSourceProxy* filter);
+  /// The feature curve at a click is none any more.
+  void finishClear(vtkSMSourceProxy* filter);
   void finishLoop(vtkSMSourceProxy* filter);
   void finishValence(vtkSMSourceProxy* filter);
   void finishMove(vtkSMSourceProxy* filter);
@@ -98,6 +100,7 @@ private:
   void showBalls();
 
   void perform(vtkSMSourceProxy* filter, const quadrille::NewConstraint& constraint);
+  void remove(vtkSMSourceProxy* filter, vtkSMSourceProxy* constraint);
   void applyValence();
   void showQuads(vtkSMSourceProxy* filter);
   /// Makes the quads anew and says what became of the constraint of this source.

@@ -46,7 +46,8 @@ const Button kButtons[] = {
     "Loop: drag across a body for a chain of edges that closes round it, or back to where the drag "
     "began" },
   { pqQuadrilleDrawing::Tool::Feature, "Feature",
-    "Feature: drag over the surface; the line becomes edges of the quads" },
+    "Feature: drag over the surface; the line becomes edges of the quads. Click on a feature curve "
+    "to clear it" },
 };
 
 constexpr const char* kHelp = "QuadrilleHelp"; // property of an action: what it does

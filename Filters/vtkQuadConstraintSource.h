@@ -5,7 +5,8 @@
  * @brief   one constraint for vtkQuadRemesh: a line or a point with the arrays that say what is asked for
  *
  * Lines have the cell arrays `ConstraintType` (see Kinds), `GuidingWeight` and `GuidingRadius`, and the point array
- * `TargetValence`, which is 0; a valence is a vertex with its `TargetValence`. Points need not lie on the surface. In
+ * `TargetValence`, which is 0; a valence is a vertex with its `TargetValence`, a cleared feature one with its
+ * `ConstraintType`. Points need not lie on the surface. In
  * ParaView there is a source of its own for each kind, with a widget in the view.
  */
 #ifndef vtkQuadConstraintSource_h
@@ -24,22 +25,23 @@ public:
   vtkTypeMacro(vtkQuadConstraintSource, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// What is asked for; of lines the value of `ConstraintType`.
+  /// What is asked for; of lines and cleared features the value of `ConstraintType`.
   enum Kinds
   {
     FEATURE_CURVE = 0,
     GUIDING_STROKE = 1,
     CONNECTION = 2,
     CYCLE = 3,
-    MOVE = 4,   ///< the irregular vertex nearest to the first point goes to the last one
-    VALENCE = 5 ///< at the first point
+    MOVE = 4,           ///< the irregular vertex nearest to the first point goes to the last one
+    VALENCE = 5,        ///< at the first point
+    CLEARED_FEATURE = 6 ///< the feature curve at the first point is none
   };
 
   ///@{
   /**
    * A Kinds. Default: GUIDING_STROKE.
    */
-  vtkSetClampMacro(Kind, int, FEATURE_CURVE, VALENCE);
+  vtkSetClampMacro(Kind, int, FEATURE_CURVE, CLEARED_FEATURE);
   vtkGetMacro(Kind, int);
   ///@}
 

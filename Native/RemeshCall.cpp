@@ -106,6 +106,9 @@ PlacedConstraints placeLines(
       case 1:
         placement.addStroke({ source, std::move(points) }, 1, strokeRadius);
         break;
+      case 6:
+        placement.addCleared(source, points.front());
+        break;
       default:
         placement.addCurve(
           source, kind == 2 ? CurveKind::Connection : CurveKind::Cycle, std::move(points));

@@ -5,6 +5,7 @@
 #include "Base/Angles.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Mesh/Distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -221,6 +222,32 @@ ConstraintMeasure ConstraintMeasures::guide(
   {
     *irregularShare = irregular / area;
   }
+  return word;
+}
+
+ConstraintMeasure ConstraintMeasures::cleared(const Vector3& place)
+{
+  ConstraintMeasure word = ConstraintMeasure::unknown(place, "edge lengths", kNoQuads);
+  const double edgeLength = edgeLengthAt(place);
+  if (!(edgeLength > 0))
+  {
+    return word;
+  }
+  word.deviation = std::numeric_limits<double>::infinity();
+  for (const QuadLine& line : mesh_.lines)
+  {
+    if (!line.boundary)
+    {
+      const double distance = distanceToSegment(place, mesh_.points[line.a], mesh_.points[line.b]);
+      word.deviation = std::min(word.deviation, distance / edgeLength);
+    }
+  }
+  word.isMet = word.deviation > kMetDistance;
+  word.reason = word.isMet ? ""
+                           : "a feature of the quads is " + shortText(word.deviation) +
+      " edge lengths away, more than " + shortText(kMetDistance) +
+      " counts as met: put the point on that curve, away from its ends, or take the curve that was "
+      "drawn there away";
   return word;
 }
 

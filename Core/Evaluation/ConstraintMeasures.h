@@ -95,6 +95,8 @@ public:
   /// "edge lengths": the largest distance from the quads' edges, over the length of these. curve: not empty.
   ConstraintMeasure curve(const std::vector<std::array<Vector3, 2>>& curve);
   ConstraintMeasure curve(const std::vector<Vector3>& path);
+  /// "edge lengths": from the place to the nearest feature of the quads, 0.3 at least; infinite where they have none.
+  ConstraintMeasure cleared(const Vector3& place);
   /// "edge lengths": from the place to the nearest point of the quads with the valence, on boundaries one more than the
   /// edges there; of a regular one 0, if the nearest point is one.
   ConstraintMeasure valence(const Vector3& place, int asked);

@@ -12,6 +12,23 @@
 namespace quadrille
 {
 
+namespace
+{
+
+PlacedConstraint atPlace(
+  ConstraintKind kind, std::int64_t source, const Vector3& given, const Vector3& place)
+{
+  PlacedConstraint placed;
+  placed.kind = kind;
+  placed.source = source;
+  placed.given = { given };
+  placed.path = { place };
+  placed.distance = (place - given).norm();
+  return placed;
+}
+
+} // namespace
+
 std::vector<Vector3> courseOf(
   const CurveRequest& curve, const SurfacePlaces& places, const SurfacePaths& paths)
 {
@@ -140,14 +157,16 @@ void ConstraintPlacement::addValence(std::int64_t source, const Vector3& point, 
   {
     requests_.valences.push_back({ place.point, valence });
   }
-  PlacedConstraint placed;
-  placed.kind = ConstraintKind::Valence;
-  placed.source = source;
-  placed.given = { point };
-  placed.path = { place.point };
-  placed.distance = (place.point - point).norm();
+  PlacedConstraint placed = atPlace(ConstraintKind::Valence, source, point, place.point);
   placed.valence = valence;
   result_.placed.push_back(std::move(placed));
+}
+
+void ConstraintPlacement::addCleared(std::int64_t source, const Vector3& point)
+{
+  const Vector3 place = places_.nearestPlace(point).point;
+  requests_.cleared.push_back(place);
+  result_.placed.push_back(atPlace(ConstraintKind::Cleared, source, point, place));
 }
 
 Vector3 ConstraintPlacement::addSize(const Vector3& point, double radius, double factor, int order)
@@ -160,11 +179,8 @@ Vector3 ConstraintPlacement::addSize(const Vector3& point, double radius, double
 void ConstraintPlacement::leaveOutValence(
   std::int64_t source, const Vector3& point, int valence, const std::string& whyNot)
 {
-  PlacedConstraint placed;
-  placed.kind = ConstraintKind::Valence;
-  placed.source = source;
-  placed.given = { point };
-  placed.path = { places_.nearestPlace(point).point };
+  PlacedConstraint placed =
+    atPlace(ConstraintKind::Valence, source, point, places_.nearestPlace(point).point);
   placed.valence = valence;
   placed.whyNot = whyNot;
   result_.notices.push_back("valence point " + std::to_string(source) + " is left out: " + whyNot);

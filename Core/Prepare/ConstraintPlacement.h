@@ -47,6 +47,9 @@ public:
   /// The nearest place on the surface, which is returned.
   Vector3 addSize(const Vector3& point, double radius, double factor, int order = 0);
 
+  /// The nearest place on the surface, where no feature is to be.
+  void addCleared(std::int64_t source, const Vector3& point);
+
   /// A valence that is not asked for, and why not: it contradicts an earlier one, say. The rest is done.
   void leaveOutValence(
     std::int64_t source, const Vector3& point, int valence, const std::string& whyNot);

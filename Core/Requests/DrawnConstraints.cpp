@@ -17,6 +17,8 @@ const char* nameOf(ConstraintKind kind)
       return "valence";
     case ConstraintKind::Connection:
       return "connection";
+    case ConstraintKind::Cleared:
+      return "cleared feature";
     case ConstraintKind::Move:
       return "move";
     default:

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a user draws beside the surface: feature curves, guiding strokes, connections, cycles and points with valences;
+/// What a user draws beside the surface: feature curves, guiding strokes, connections, cycles, points with valences, and
+/// points whose features are to be none;
 /// and where it lies on the surface, see ConstraintPlacement.
 #pragma once
 
@@ -21,7 +22,8 @@ enum class ConstraintKind
   Connection = 4,
   Cycle = 6,
   Move =
-    8 ///< of an irregular vertex, see Session/IrregularEdits.h; its path leads from the old place to the new one
+    8, ///< of an irregular vertex, see Session/IrregularEdits.h; its path leads from the old place to the new one
+  Cleared = 12 ///< a feature that is to be none; 10 is the mirror plane
 };
 
 /// What arrays and messages call it.

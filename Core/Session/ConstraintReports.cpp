@@ -70,6 +70,7 @@ public:
   }
 
   ConstraintMeasure operator()(const FeatureLine&) { return measures_.curve(part_->path); }
+  ConstraintMeasure operator()(const ClearedAt&) { return measures_.cleared(part_->place); }
   ConstraintMeasure operator()(const GuideStroke& stroke) { return guide(stroke.weight); }
   ConstraintMeasure operator()(const GuideRegion& region) { return guide(region.weight); }
   ConstraintMeasure operator()(const ValenceAt& at)

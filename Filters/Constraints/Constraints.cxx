@@ -11,6 +11,8 @@
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
@@ -62,6 +64,9 @@ bool hasLines(vtkPolyData* data)
   return data && data->GetNumberOfLines() > 0;
 }
 
+/// Value of ConstraintType of vertices that clear features.
+constexpr double kClearedType = 6;
+
 bool hasPoints(vtkPolyData* data)
 {
   return data && data->GetNumberOfPoints() > 0;
@@ -108,6 +113,41 @@ double radiusOf(vtkDataArray* radii, vtkIdType cell, double otherwise)
       ", but it must be a number of at least 0");
   }
   return radius;
+}
+
+/// The points of vertices of this type.
+std::vector<std::pair<vtkIdType, Vector3>> clearedPlaces(vtkPolyData* data)
+{
+  std::vector<std::pair<vtkIdType, Vector3>> places;
+  vtkDataArray* types = data ? data->GetCellData()->GetArray(arrays::kConstraintType) : nullptr;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; types && cell < data->GetNumberOfVerts(); ++cell)
+  {
+    if (types->GetComponent(cell, 0) != kClearedType)
+    {
+      continue;
+    }
+    data->GetVerts()->GetCellAtId(cell, corners);
+    for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+    {
+      Vector3 p;
+      data->GetPoint(corners->GetId(i), p.data());
+      if (!p.allFinite())
+      {
+        refuse("cleared feature ", cell, " has a point that is not finite; place it anew");
+      }
+      places.emplace_back(cell, p);
+    }
+  }
+  return places;
+}
+
+void addCleared(vtkPolyData* data, ConstraintPlacement& placement)
+{
+  for (const auto& [cell, place] : clearedPlaces(data))
+  {
+    placement.addCleared(cell, place);
+  }
 }
 
 void addCurves(vtkPolyData* curves, const ConstraintInputs& inputs, ConstraintPlacement& placement)
@@ -231,7 +271,7 @@ void addPoints(vtkPolyData* points, int valence, ConstraintPlacement& placement)
 int valenceOfMixed(vtkPolyData* mixed, int valence)
 {
   return mixed->GetPointData()->HasArray(arrays::kTargetValence) || hasLines(mixed) ||
-      connects(mixed)
+      connects(mixed) || !clearedPlaces(mixed).empty()
     ? 0
     : valence;
 }
@@ -264,7 +304,8 @@ void addMoves(vtkPolyData* data, PlacedConstraints& result)
 /// What of an input is not used.
 void tellUnused(vtkPolyData* data, const char* name, std::vector<std::string>& notices)
 {
-  if (data && data->GetNumberOfPoints() > 0 && data->GetNumberOfLines() == 0)
+  if (data && data->GetNumberOfPoints() > 0 && data->GetNumberOfLines() == 0 &&
+    clearedPlaces(data).empty())
   {
     notices.push_back(std::string("the input ") + name +
       " has no lines and is not used: give it polylines, as Poly Line Source makes them");
@@ -288,7 +329,7 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   tellUnused(inputs.cycles, "Cycles", unused.notices);
   const bool any = hasLines(inputs.curves) || hasLines(inputs.strokes) ||
     hasLines(inputs.connections) || hasLines(inputs.cycles) || hasPoints(inputs.points) ||
-    hasPoints(inputs.mixed) || connects(inputs.surface);
+    hasPoints(inputs.mixed) || connects(inputs.surface) || !clearedPlaces(inputs.curves).empty();
   if (!any || surface.input.polygonPoints.empty())
   {
     return unused;
@@ -300,6 +341,7 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   {
     addCurves(inputs.curves, inputs, placement);
   }
+  addCleared(inputs.curves, placement);
   if (hasLines(inputs.strokes))
   {
     addStrokes(inputs, placement);
@@ -318,6 +360,7 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
     addCurves(inputs.mixed, inputs, placement);
     addPoints(inputs.mixed, valenceOfMixed(inputs.mixed, inputs.valence), placement);
     addConnections(inputs.mixed, "the constraints", placement);
+    addCleared(inputs.mixed, placement);
   }
   placement.addTo(surface.input);
   PlacedConstraints result = placement.result();

@@ -100,7 +100,7 @@ def lines_from(lines):
 
 
 def lines_of(polydata):
-    """Pairs of a kind and points, of the lines of a vtkPolyData."""
+    """Pairs of a kind and points, of the lines of a vtkPolyData, and of vertices that clear features."""
     from ._vtk_data import arrays_of_cells, mesh_of
 
     mesh = mesh_of(polydata)
@@ -114,6 +114,10 @@ def lines_of(polydata):
             raise InvalidInput(f"curve {i} has ConstraintType {kind}, but only 0 (feature curve), 1 (guiding stroke), "
                                "2 (connection) and 3 (cycle) can be asked for here: correct the array")
         lines.append((kind, mesh.points[ids[offsets[i]:offsets[i + 1]]]))
+    offsets, ids = arrays_of_cells(polydata.GetVerts())
+    for i in range(first if kinds else 0):
+        if kinds.GetComponent(i, 0) == 6:
+            lines += [(6, mesh.points[[k]]) for k in ids[offsets[i]:offsets[i + 1]]]
     return lines
 
 

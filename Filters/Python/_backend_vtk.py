@@ -94,10 +94,14 @@ def lines_of(polydata):
 
 
 def lines_from(lines):
-    counts = [len(points) for _, points in lines]
+    lines = sorted(lines, key=lambda line: len(line[1]) > 1)  # vertices come before lines in the order of cells
     data = surface_from(numpy.concatenate([points for _, points in lines]), numpy.zeros(0, numpy.int64),
                         numpy.zeros(0, numpy.int64))
-    data.SetLines(cells_of(numpy.concatenate(([0], numpy.cumsum(counts))), numpy.arange(sum(counts))))
+    single = sum(len(points) == 1 for _, points in lines)
+    counts = numpy.cumsum([0] + [len(points) for _, points in lines])
+    if single:
+        data.SetVerts(cells_of(counts[:single + 1], numpy.arange(single)))
+    data.SetLines(cells_of(counts[single:] - single, numpy.arange(single, counts[-1])))
     add_array(data.GetCellData(), "ConstraintType", numpy.array([kind for kind, _ in lines], numpy.int32))
     return data
 

@@ -153,7 +153,7 @@ def _polylines(name, lines):
 
 
 #: Values of the array ConstraintType.
-_TYPES = {"curves": 0, "strokes": 1, "connections": 2, "cycles": 3}
+_TYPES = {"curves": 0, "strokes": 1, "connections": 2, "cycles": 3, "cleared": 6}
 
 
 def as_curves(**given):
@@ -166,5 +166,7 @@ def as_curves(**given):
             raise InvalidInput(f"beside a vtkPolyData of curves there is no room for {others}: put them into it, with "
                                "these numbers in its cell array ConstraintType")
         return backend.lines_of(ready)
+    cleared = as_points(given.pop("cleared", numpy.zeros((0, 3))), "cleared")
     lines = [(_TYPES[name], line) for name in given for line in _polylines(name, given[name])]
+    lines += [(_TYPES["cleared"], point.reshape(1, 3)) for point in cleared]
     return backend.lines_from(lines) if lines else None

@@ -360,9 +360,9 @@ class OneWayForAllFronts(unittest.TestCase):
         run.Update()
         self.assertTrue(same(quadrille.to_arrays(run.GetOutput()), expected))
         lines = {"FEATURE_CURVE": "curves", "GUIDING_STROKE": "strokes", "CONNECTION": "connections",
-                 "CYCLE": "cycles"}
+                 "CYCLE": "cycles", "CLEARED_FEATURE": "cleared"}
         if kind in lines:
-            more = {lines[kind]: [points]}
+            more = {lines[kind]: [points] if len(points) > 1 else points}
             if radius:
                 more["stroke_radius"] = radius
             self.assertTrue(same(quadrille.to_arrays(quadrille.remesh(mesh, quads=quads, threads=2, **more)), expected))
@@ -387,6 +387,8 @@ class OneWayForAllFronts(unittest.TestCase):
         self.on_a_surface(mesh, 2400)
         ring = [(0.5, 0.5, 1), (1, 0.5, 0.5), (0.5, 0.5, 0), (0, 0.5, 0.5)]
         self.check(mesh, 2400, lambda made: made.add_cycle(ring), "cycle", "CYCLE", ring)
+        self.check(mesh, 2400, lambda made: made.clear_feature((0.5, 0, 1)), "cleared feature", "CLEARED_FEATURE",
+                   [(0.5, 0, 1)])
 
     def test_on_a_part(self):
         mesh = part()

@@ -233,6 +233,21 @@ TEST(ThinnedSurface, DrawnFeaturesAreFollowed)
   expectSameWords(torus, 300, 1);
 }
 
+TEST(ThinnedSurface, ClearedFeaturesAreNone)
+{
+  SurfaceInput input = toInput(unitCube(40));
+  input.drawn.cleared = { { 0.5, 0, 1 } };
+  const PiecesResult made = remeshThinned(input, askForQuads(600));
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  const QuadMesh& quads = made.remeshed.quads;
+  double length = 0;
+  for (const QuadLine& line : quads.lines)
+  {
+    length += (quads.points[line.a] - quads.points[line.b]).norm();
+  }
+  EXPECT_NEAR(length, 11, 0.01);
+}
+
 TEST(ThinnedSurface, ValencesStay)
 {
   AskedTorus torus;
