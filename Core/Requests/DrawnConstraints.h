@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a user draws beside the surface: feature curves, guiding strokes, connections, cycles, points with valences, and
-/// points whose features are to be none;
-/// and where it lies on the surface, see ConstraintPlacement.
+/// What a user draws beside the surface: feature curves, guiding strokes, connections, cycles, points with valences and
+/// points whose features are to be none; and where it lies on the surface, see ConstraintPlacement.
 #pragma once
 
 #include "Requests/GuidedPlaces.h"

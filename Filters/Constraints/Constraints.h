@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a user draws beside the surface: feature curves, guiding strokes, connections, cycles, points with valences, and
-/// points whose features are to be none.
+/// What a user draws beside the surface: feature curves, guiding strokes, connections, cycles, points with valences,
+/// and points whose features are to be none.
 /// They are put on the surface, and what became of them is shown.
 #pragma once
 

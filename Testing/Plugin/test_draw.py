@@ -143,6 +143,27 @@ def feature(session, chance):
     return Outcome(off, met, is_true, f"edges {away:.2f} off; {reason}")
 
 
+def clear(session, chance):
+    """A click on a feature curve."""
+    for _ in range(20):
+        found = session.value(f"feature_places({chance.randrange(10 ** 6)}, {NEAR * session.edge})")
+        if found:
+            break
+        test_places.random_view(session, chance)
+    else:
+        raise SystemExit("FAILED: hardly any feature is seen")
+    pixel, place = found[0]
+    session.press(pixel)
+    drawn = session.drawn()
+    if not drawn or drawn[0] != "QuadClearedFeature":
+        return NOTHING
+    off = math.dist(drawn[1][0], place) / session.edge
+    away = session.value(f"off_features({tuple(drawn[1][0])!r})") / session.edge
+    met, reason = session.word("cleared feature") or (None, "no row")
+    return Outcome(off, met, met is not None and (away > MET_OFF) == (met == 1),
+                   f"the nearest feature is {away:.2f} off; {reason}")
+
+
 def valence(session, chance):
     pixel, place = session.places(chance, 1)[0]
     wanted = chance.choice((3, 5))
@@ -214,13 +235,16 @@ def loop(session, chance):
     return Outcome(off, met, met is not None and (met == 1 or reason != ""), reason)
 
 
-ACTIONS = {"Stroke": stroke, "Valence": valence, "Move": move, "Connect": connect, "Loop": loop, "Feature": feature}
+ACTIONS = {"Stroke": stroke, "Valence": valence, "Move": move, "Connect": connect, "Loop": loop, "Feature": feature,
+           "Clear": clear}
+#: Of what has no tool of its own.
+BUTTONS = {"Clear": "Feature"}
 
 
 def try_tool(session, name, chance, count):
     """Draws so many times with a tool; how many of them are bad."""
     session.ask("clear()")
-    session.take(name)
+    session.take(BUTTONS.get(name, name))
     outcomes = []
     for number in range(count):
         session.ask("clear()")
