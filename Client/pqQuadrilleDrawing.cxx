@@ -77,6 +77,7 @@ const KindName kKinds[] = {
   { "QuadLoop", "Loop", "cycle" },
   { "QuadFeatureCurve", "Feature", "feature curve" },
   { "QuadClearedFeature", "Cleared feature", "cleared feature" },
+  { "QuadSize", "Size", "size" },
 };
 
 const KindName& kindOf(const std::string& source)
@@ -109,6 +110,9 @@ QString hintOf(Tool tool)
     case Tool::Feature:
       return "Feature: drag over the surface with the left button where edges of the quads are to "
              "run; click on a feature curve to clear it. Escape ends it.";
+    case Tool::Size:
+      return "Size: drag from a place to as far as quads are to be smaller or larger, with the "
+             "left button. Escape ends it.";
     default:
       return {};
   }
@@ -393,6 +397,10 @@ void pqQuadrilleDrawing::finish()
     else if (this->Current == Tool::Valence)
     {
       this->finishValence(filter);
+    }
+    else if (this->Current == Tool::Size)
+    {
+      this->finishSize(filter);
     }
     else if (this->Current == Tool::Move)
     {
@@ -704,6 +712,29 @@ void pqQuadrilleDrawing::finishValence(vtkSMSourceProxy* filter)
       { { "Valence", { static_cast<double>(this->Valence) } },
         { "Point", coordinatesOf({ *place }) } } });
   this->Last = { filter, quadrille::lastConstraint(filter), pixel };
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::finishSize(vtkSMSourceProxy* filter)
+{
+  if (quadrille::lengthOf(this->Path) < kClick * this->pixelRatio())
+  {
+    say("That was a click: drag to as far as the size is to reach.");
+    return;
+  }
+  const std::vector<std::optional<Place>> ends = quadrille::placesUnder(
+    this->viewProxy(), { this->Path.front(), this->Path.back() }, this->Surface);
+  if (!ends[0] || !ends[1])
+  {
+    say("The drag leaves the surface: begin and end it on the surface.");
+    return;
+  }
+  const double radius =
+    std::sqrt(vtkMath::Distance2BetweenPoints(ends[0]->data(), ends[1]->data()));
+  this->perform(filter,
+    { "QuadSize",
+      { { "Factor", { this->SizeFactor } }, { "Radius", { radius } },
+        { "Point", coordinatesOf({ *ends[0] }) } } });
 }
 
 //-----------------------------------------------------------------------------

@@ -44,7 +44,8 @@ public:
     Move,
     Connect,
     Loop,
-    Feature
+    Feature,
+    Size
   };
 
   explicit pqQuadrilleDrawing(QObject* parent = nullptr);
@@ -52,11 +53,14 @@ public:
 
   Tool tool() const { return this->Current; }
   int valence() const { return this->Valence; }
+  double sizeFactor() const { return this->SizeFactor; }
 
 public Q_SLOTS:
   void setTool(Tool tool);
   /// Of what is clicked next, and of what was clicked last with the tool that is on still; 2 to 8.
   void setValence(int valence);
+  /// Of what is dragged next, see QuadSize.
+  void setSizeFactor(double factor) { this->SizeFactor = factor; }
   /// Takes away the constraint that was made last.
   void removeLast();
 
@@ -91,6 +95,8 @@ private:
   void finishClear(vtkSMSourceProxy* filter);
   void finishLoop(vtkSMSourceProxy* filter);
   void finishValence(vtkSMSourceProxy* filter);
+  /// Sizes from where the drag began to as far as it went.
+  void finishSize(vtkSMSourceProxy* filter);
   void finishMove(vtkSMSourceProxy* filter);
   void finishConnection(vtkSMSourceProxy* filter);
   /// The irregular vertex that is seen at the pixel, or none.
@@ -114,6 +120,7 @@ private:
 
   Tool Current = Tool::None;
   int Valence = 3;
+  double SizeFactor = 0.5;
   QPointer<pqRenderView> View;
   QPointer<pqQuadrilleOverlay> Overlay;
   std::vector<unsigned long> Observers;

@@ -66,7 +66,7 @@ int vtkQuadConstraintSource::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  const bool isPoint = this->Kind == VALENCE || this->Kind == CLEARED_FEATURE;
+  const bool isPoint = this->Kind >= VALENCE;
   if (!this->Enabled || this->Points.size() < (isPoint ? 1 : 2))
   {
     return 1;
@@ -96,12 +96,15 @@ int vtkQuadConstraintSource::RequestData(
   auto type = quadrille::newArray<vtkIntArray>(quadrille::arrays::kConstraintType);
   auto weight = quadrille::newArray<vtkDoubleArray>(quadrille::arrays::kGuidingWeight);
   auto radius = quadrille::newArray<vtkDoubleArray>(quadrille::arrays::kGuidingRadius);
+  auto factor = quadrille::newArray<vtkDoubleArray>(quadrille::arrays::kSizeFactor);
   type->InsertNextValue(this->Kind == VALENCE ? 0 : this->Kind);
   weight->InsertNextValue(this->Weight);
   radius->InsertNextValue(this->Radius);
+  factor->InsertNextValue(this->Factor);
   output->GetCellData()->AddArray(type);
   output->GetCellData()->AddArray(weight);
   output->GetCellData()->AddArray(radius);
+  output->GetCellData()->AddArray(factor);
   return 1;
 }
 
@@ -116,4 +119,5 @@ void vtkQuadConstraintSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Valence: " << this->Valence << "\n";
   os << indent << "Weight: " << this->Weight << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "Factor: " << this->Factor << "\n";
 }

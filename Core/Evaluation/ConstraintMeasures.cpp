@@ -424,6 +424,13 @@ std::optional<LineInQuads> ConstraintMeasures::lineInQuads(const PlacedConstrain
   return lines_->find(constraint);
 }
 
+double lengthOfSizeOne(double targetEdgeLength, std::optional<std::size_t> asked, std::size_t quads)
+{
+  return asked && quads > 0
+    ? targetEdgeLength * std::sqrt(static_cast<double>(*asked) / static_cast<double>(quads))
+    : targetEdgeLength;
+}
+
 ConstraintMeasure ConstraintMeasures::sizeOf(const std::vector<std::pair<Index, double>>& quads,
   const Vector3& place, const AskedSize& asked) const
 {

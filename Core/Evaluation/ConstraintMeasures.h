@@ -81,6 +81,11 @@ struct AskedSize
   double edgeLength = 0; ///< of quads where the size is 1
 };
 
+/// AskedSize::edgeLength for a target edge length, where so many quads were made; asked: the number that was asked for,
+/// against which lengths count then; none: it was not a number.
+double lengthOfSizeOne(
+  double targetEdgeLength, std::optional<std::size_t> asked, std::size_t quads);
+
 class ConstraintMeasures
 {
 public:

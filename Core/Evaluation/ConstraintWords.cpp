@@ -228,6 +228,11 @@ ConstraintWord Judge::measured(std::size_t i)
   {
     return valenceAt(constraint.source, place, constraint.valence);
   }
+  if (constraint.kind == ConstraintKind::Size)
+  {
+    return worded(nameOf(constraint.kind), constraint.source,
+      measures_.size(place, constraint.radius, { constraint.factor, asked_.edgeLength }));
+  }
   if (constraint.kind == ConstraintKind::Cleared)
   {
     return worded(nameOf(constraint.kind), constraint.source, measures_.cleared(place));

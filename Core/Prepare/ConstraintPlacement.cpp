@@ -7,6 +7,7 @@
 #include "Requests/CurveRequests.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace quadrille
@@ -169,11 +170,20 @@ void ConstraintPlacement::addCleared(std::int64_t source, const Vector3& point)
   result_.placed.push_back(atPlace(ConstraintKind::Cleared, source, point, place));
 }
 
-Vector3 ConstraintPlacement::addSize(const Vector3& point, double radius, double factor, int order)
+void ConstraintPlacement::addSize(
+  std::int64_t source, const Vector3& point, double radius, double factor, int order)
 {
-  Vector3 place = places_.nearestPlace(point).point;
+  if (!(radius >= 0) || !std::isfinite(radius) || !(factor > 0) || !std::isfinite(factor))
+  {
+    refuse("size ", source, " at ", placeText(point), " has the radius ", radius,
+      " and the factor ", factor, ", but needs a radius of at least 0 and a factor above 0");
+  }
+  const Vector3 place = places_.nearestPlace(point).point;
   requests_.sizes.push_back({ place, radius, factor, order });
-  return place;
+  PlacedConstraint placed = atPlace(ConstraintKind::Size, source, point, place);
+  placed.radius = radius;
+  placed.factor = factor;
+  result_.placed.push_back(std::move(placed));
 }
 
 void ConstraintPlacement::leaveOutValence(

@@ -19,6 +19,8 @@ const char* nameOf(ConstraintKind kind)
       return "connection";
     case ConstraintKind::Cleared:
       return "cleared feature";
+    case ConstraintKind::Size:
+      return "size";
     case ConstraintKind::Move:
       return "move";
     default:

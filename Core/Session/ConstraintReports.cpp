@@ -36,14 +36,12 @@ public:
     const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
     const SessionResult& result, const SymmetricResult* symmetric, bool isOfNumber)
     : surface_(surface), places_(places), constraints_(constraints), composed_(composed),
-      quads_(made.quads), curves_(made.curves), madeEdgeLength_(made.targetEdgeLength),
+      quads_(made.quads), curves_(made.curves),
+      madeEdgeLength_(lengthOfSizeOne(made.targetEdgeLength,
+        isOfNumber ? std::optional<std::size_t>(result.targetQuads) : std::nullopt,
+        made.quads.quads.size())),
       symmetric_(symmetric), measures_(made.quads)
   {
-    if (isOfNumber && !quads_.quads.empty())
-    {
-      madeEdgeLength_ *= std::sqrt(
-        static_cast<double>(result.targetQuads) / static_cast<double>(quads_.quads.size()));
-    }
     std::size_t guides = 0;
     for (const PlacedPart& part : composed.parts)
     {

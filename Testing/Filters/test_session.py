@@ -359,6 +359,10 @@ class OneWayForAllFronts(unittest.TestCase):
         run.AddConstraintsConnection(source.GetOutputPort())
         run.Update()
         self.assertTrue(same(quadrille.to_arrays(run.GetOutput()), expected))
+        word, row = made.update()["constraints"][0], run.GetConstraintTable()
+        self.assertEqual(row.GetValueByName(0, "Met").ToInt(), int(word["met"]))
+        if kind in ("CLEARED_FEATURE", "SIZE"):
+            self.assertAlmostEqual(row.GetValueByName(0, "Deviation").ToDouble(), word["deviation"], 6)
         lines = {"FEATURE_CURVE": "curves", "GUIDING_STROKE": "strokes", "CONNECTION": "connections",
                  "CYCLE": "cycles", "CLEARED_FEATURE": "cleared"}
         if kind in lines:
@@ -389,6 +393,8 @@ class OneWayForAllFronts(unittest.TestCase):
         self.check(mesh, 2400, lambda made: made.add_cycle(ring), "cycle", "CYCLE", ring)
         self.check(mesh, 2400, lambda made: made.clear_feature((0.5, 0, 1)), "cleared feature", "CLEARED_FEATURE",
                    [(0.5, 0, 1)])
+        self.check(mesh, 2400, lambda made: made.set_size((0.5, 0.5, 1), 0.5, radius=0.2), "size", "SIZE",
+                   [(0.5, 0.5, 1)], radius=0.2)
 
     def test_on_a_part(self):
         mesh = part()

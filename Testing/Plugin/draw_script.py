@@ -143,6 +143,18 @@ def feature_places(seed, near):
     return found
 
 
+def size_within(place, radius):
+    """The median by area of the edge lengths of quads with their centre within the radius; how many there are."""
+    points, corners = quad_arrays()
+    inside = numpy.linalg.norm(points[corners].mean(axis=1) - place, axis=1) <= radius
+    lengths = numpy.linalg.norm(points[corners] - points[numpy.roll(corners, -1, axis=1)], axis=2).mean(axis=1)[inside]
+    if not len(lengths):
+        return math.nan, 0
+    lengths.sort()
+    share = numpy.cumsum(lengths ** 2) / (lengths ** 2).sum()
+    return float(lengths[numpy.searchsorted(share, 0.5)]), int(inside.sum())
+
+
 def clear_path(start, angle, length, bend, near, step=6):
     """Pixels along an arc that clearly sees the quads everywhere, with what they see; None where it does not."""
     x, y = start

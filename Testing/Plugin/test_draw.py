@@ -31,7 +31,7 @@ MET_OFF = 0.3    # edge lengths, as the table has it for feature curves
 DOUBT = 2.5      # degrees in which two ways to measure the mean may differ
 WIDTH = count_actions.WIDTH
 COVERED = 280  # pixels at the lower end of the view, where the window Output Messages may lie
-TOOLS = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature")  # in their order
+TOOLS = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature", "Size")  # in their order
 
 
 class Session(test_places.Session):
@@ -180,6 +180,29 @@ def valence(session, chance):
     return Outcome(off, met, is_true, f"{wanted} is {nearest:.2f} off; {reason}")
 
 
+def size(session, chance):
+    """From a place to another one between two and six edge lengths away, with the factor that the tool bar has."""
+    for _ in range(40):
+        centre, *others = session.places(chance, 8)
+        near = [p for p in others if 2 * session.edge < math.dist(p[1], centre[1]) < 6 * session.edge]
+        if near:
+            break
+    else:
+        raise SystemExit("FAILED: hardly any two places near each other are seen")
+    pixel, place = near[0]
+    session.drag([centre[0], tuple((a + b) / 2 for a, b in zip(centre[0], pixel)), pixel])
+    drawn = session.drawn()
+    if not drawn:
+        return NOTHING
+    radius, factor = session.value("[list(quads().Constraints)[-1].GetPropertyValue(n) for n in ('Radius', 'Factor')]")
+    off = max(math.dist(drawn[1][0], centre[1]), abs(radius - math.dist(place, centre[1]))) / session.edge
+    length, count = session.value(f"size_within({tuple(centre[1])!r}, {radius})")
+    met, reason = session.word("size") or (None, "no row")
+    share = length / session.edge / factor
+    is_true = met is not None and factor == 0.5 and (share < 1.45 if met else share > 1.1 and reason != "")
+    return Outcome(off, met, is_true, f"{count} quads {share:.2f} times as long as asked for; {reason}")
+
+
 def visible_balls(session, chance, least):
     """In a view that shows so many."""
     for _ in range(40):
@@ -236,7 +259,7 @@ def loop(session, chance):
 
 
 ACTIONS = {"Stroke": stroke, "Valence": valence, "Move": move, "Connect": connect, "Loop": loop, "Feature": feature,
-           "Clear": clear}
+           "Clear": clear, "Size": size}
 #: Of what has no tool of its own.
 BUTTONS = {"Clear": "Feature"}
 
