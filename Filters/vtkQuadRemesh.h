@@ -540,8 +540,9 @@ public:
   ///@{
   /// Optional input with any number of connections (port 6): constraints of all classes, as vtkQuadConstraintSource
   /// makes them. Lines by their cell array `ConstraintType` (0 or none: feature curve, 1 guiding stroke, 2 connection,
-  /// 3 cycle, 4 move: the irregular vertex nearest to the begin of the line goes to its end), points by their point
-  /// array `TargetValence`; without it, and without lines, all of them get PointValence.
+  /// 3 cycle, 4 move: the irregular vertex nearest to the begin of the line goes to its end), vertices by the same (6
+  /// cleared feature, 7 size, with `SizeFactor` and `GuidingRadius`), points by their point array `TargetValence`;
+  /// without all these all of them get PointValence.
   void AddConstraintsConnection(vtkAlgorithmOutput* output) { this->AddInputConnection(6, output); }
   void AddConstraintsData(vtkDataObject* data) { this->AddInputDataObject(6, data); }
   void RemoveAllConstraints() { this->SetInputConnection(6, nullptr); }
