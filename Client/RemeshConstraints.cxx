@@ -5,7 +5,10 @@
 #include "FetchedData.h"
 
 #include "pqUndoStack.h"
+#include "vtkCellData.h"
 #include "vtkCleanPolyData.h"
+#include "vtkDataArray.h"
+#include "vtkLine.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkSMInputProperty.h"
@@ -35,6 +38,7 @@ namespace
 {
 
 constexpr int kQuads = 0; // outputs of Quad Remesh
+constexpr int kFeatureLines = 2;
 constexpr int kIrregularVertices = 4;
 constexpr int kConstraintTable = 6;
 
@@ -262,6 +266,64 @@ std::vector<Place> irregularVertices(vtkSMSourceProxy* filter)
       }
     });
   return places;
+}
+
+std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter)
+{
+  constexpr int kPlacesAnEdge = 4;
+  std::vector<Place> places;
+  forEach<vtkPolyData>(fetched(filter, kFeatureLines),
+    [&places](vtkPolyData& data)
+    {
+      vtkDataArray* boundary = data.GetCellData()->GetArray("Boundary");
+      for (vtkIdType i = 0; boundary && i < data.GetNumberOfCells(); ++i)
+      {
+        const vtkIdType* ids = nullptr;
+        vtkIdType size = 0;
+        data.GetCellPoints(i, size, ids);
+        for (vtkIdType k = 0; boundary->GetComponent(i, 0) == 0 && k + 1 < size; ++k)
+        {
+          Place from;
+          Place to;
+          data.GetPoint(ids[k], from.data());
+          data.GetPoint(ids[k + 1], to.data());
+          for (int step = 0; step < kPlacesAnEdge; ++step)
+          {
+            const double t = (step + 0.5) / kPlacesAnEdge;
+            places.push_back({ (1 - t) * from[0] + t * to[0], (1 - t) * from[1] + t * to[1],
+              (1 - t) * from[2] + t * to[2] });
+          }
+        }
+      }
+    });
+  return places;
+}
+
+vtkSMSourceProxy* featureCurveAt(vtkSMSourceProxy* filter, const Place& place, double within)
+{
+  constexpr unsigned int kNumbersOfPoint = 3;
+  const vtkSMPropertyHelper constraints(filter, "Constraints");
+  for (unsigned int i = 0; i < constraints.GetNumberOfElements(); ++i)
+  {
+    auto* proxy = vtkSMSourceProxy::SafeDownCast(constraints.GetAsProxy(i));
+    if (!proxy || std::strcmp(proxy->GetXMLName(), "QuadFeatureCurve") != 0)
+    {
+      continue;
+    }
+    const std::vector<double> points = vtkSMPropertyHelper(proxy, "Points").GetArray<double>();
+    for (std::size_t k = 0; k + 2 * kNumbersOfPoint <= points.size(); k += kNumbersOfPoint)
+    {
+      double along = 0;
+      Place nearest;
+      const double squared = vtkLine::DistanceToLine(
+        place.data(), &points[k], &points[k + kNumbersOfPoint], along, nearest.data());
+      if (squared <= within * within)
+      {
+        return proxy;
+      }
+    }
+  }
+  return nullptr;
 }
 
 std::optional<double> edgeLength(vtkSMSourceProxy* filter)

@@ -55,6 +55,12 @@ bool setNumber(vtkSMSourceProxy* constraint, const char* property, int value);
 /// The places of the irregular vertices of the quads that are there.
 std::vector<Place> irregularVertices(vtkSMSourceProxy* filter);
 
+/// Places on the feature curves of the quads that are there, four to an edge.
+std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter);
+
+/// The constraint of the filter that draws a feature curve through a place, up to a distance; null: none does.
+vtkSMSourceProxy* featureCurveAt(vtkSMSourceProxy* filter, const Place& place, double within);
+
 /// Mean edge length of the quads that are there; none where there are no quads.
 std::optional<double> edgeLength(vtkSMSourceProxy* filter);
 

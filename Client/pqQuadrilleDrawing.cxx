@@ -68,6 +68,8 @@ const KindName kKinds[] = {
   { "QuadConnection", "Connection", "connection" },
   { "QuadLoop", "Loop", "cycle" },
   { "QuadFeatureCurve", "Feature", "feature curve" },
+  { "QuadClearedFeature", "Cleared feature", "cleared feature" },
+  { "QuadSize", "Size", "size" },
 };
 
 const KindName& kindOf(const std::string& source)
@@ -99,8 +101,10 @@ QString hintOf(Tool tool)
              "Escape ends it.";
     case Tool::Feature:
       return "Feature: drag over the surface with the left button where edges of the quads are to "
-             "run. Escape ends "
-             "it.";
+             "run; click on a feature curve to clear it. Escape ends it.";
+    case Tool::Size:
+      return "Size: drag from a place to as far as quads are to be smaller or larger, with the "
+             "left button. Escape ends it.";
     default:
       return {};
   }
@@ -406,6 +410,10 @@ void pqQuadrilleDrawing::finish()
     {
       this->finishValence(filter);
     }
+    else if (this->Current == Tool::Size)
+    {
+      this->finishSize(filter);
+    }
     else if (this->Current == Tool::Move)
     {
       this->finishMove(filter);
@@ -478,6 +486,11 @@ void pqQuadrilleDrawing::finishLine(vtkSMSourceProxy* filter)
 {
   if (quadrille::lengthOf(this->Path) < kClick * this->pixelRatio())
   {
+    if (this->Current == Tool::Feature)
+    {
+      this->finishClear(filter);
+      return;
+    }
     say("That was a click: press, drag along the surface, and release.");
     return;
   }
@@ -488,6 +501,27 @@ void pqQuadrilleDrawing::finishLine(vtkSMSourceProxy* filter)
   }
   const char* source = this->Current == Tool::Feature ? "QuadFeatureCurve" : "QuadStroke";
   this->perform(filter, { source, { { "Points", coordinatesOf(*line) } } });
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::finishClear(vtkSMSourceProxy* filter)
+{
+  const std::vector<Place> places = quadrille::placesOnFeatures(filter);
+  const double near = kSameBall * quadrille::edgeLength(filter).value_or(0);
+  const std::optional<std::size_t> found = quadrille::nearestSeen(this->viewProxy(), this->Surface,
+    places, this->Path.back(), kBallReach * this->pixelRatio(), near);
+  if (!found)
+  {
+    say("There is no feature curve here: click on one to clear it, or drag to draw one.");
+    return;
+  }
+  if (vtkSMSourceProxy* drawn = quadrille::featureCurveAt(filter, places[*found], near))
+  {
+    this->remove(filter, drawn);
+    return;
+  }
+  this->perform(
+    filter, { "QuadClearedFeature", { { "Point", coordinatesOf({ places[*found] }) } } });
 }
 
 //-----------------------------------------------------------------------------
@@ -769,6 +803,29 @@ void pqQuadrilleDrawing::finishValence(vtkSMSourceProxy* filter)
 }
 
 //-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::finishSize(vtkSMSourceProxy* filter)
+{
+  if (quadrille::lengthOf(this->Path) < kClick * this->pixelRatio())
+  {
+    say("That was a click: drag to as far as the size is to reach.");
+    return;
+  }
+  const std::vector<std::optional<Place>> ends = quadrille::placesUnder(
+    this->viewProxy(), { this->Path.front(), this->Path.back() }, this->Surface);
+  if (!ends[0] || !ends[1])
+  {
+    say("The drag leaves the surface: begin and end it on the surface.");
+    return;
+  }
+  const double radius =
+    std::sqrt(vtkMath::Distance2BetweenPoints(ends[0]->data(), ends[1]->data()));
+  this->perform(filter,
+    { "QuadSize",
+      { { "Factor", { this->SizeFactor } }, { "Radius", { radius } },
+        { "Point", coordinatesOf({ *ends[0] }) } } });
+}
+
+//-----------------------------------------------------------------------------
 void pqQuadrilleDrawing::perform(vtkSMSourceProxy* filter, const NewConstraint& constraint)
 {
   BEGIN_UNDO_SET(kindOf(constraint.source).name);
@@ -890,9 +947,15 @@ void pqQuadrilleDrawing::removeLast()
                : "Select the Quad Remesh in the pipeline whose last constraint is to go.");
     return;
   }
-  const QString name = kindOf(last->GetXMLName()).name;
+  this->remove(filter, last);
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleDrawing::remove(vtkSMSourceProxy* filter, vtkSMSourceProxy* constraint)
+{
+  const QString name = kindOf(constraint->GetXMLName()).name;
   BEGIN_UNDO_SET("Remove " + name);
-  quadrille::removeConstraint(filter, last);
+  quadrille::removeConstraint(filter, constraint);
   END_UNDO_SET();
   pqQuadrilleRun::instance()->start(filter,
     [name](pqQuadrilleRun::End how)

@@ -46,7 +46,8 @@ public:
     Move,
     Connect,
     Loop,
-    Feature
+    Feature,
+    Size
   };
 
   explicit pqQuadrilleDrawing(QObject* parent = nullptr);
@@ -54,11 +55,14 @@ public:
 
   Tool tool() const { return this->Current; }
   int valence() const { return this->Valence; }
+  double sizeFactor() const { return this->SizeFactor; }
 
 public Q_SLOTS:
   void setTool(Tool tool);
   /// Of what is clicked next, and of what was clicked last with the tool that is on still; 2 to 8.
   void setValence(int valence);
+  /// Of what is dragged next, see QuadSize.
+  void setSizeFactor(double factor) { this->SizeFactor = factor; }
   /// Takes away the constraint that was made last.
   void removeLast();
 
@@ -89,8 +93,12 @@ private:
   /// A line along what was drawn; none, with a word to the user, where it cannot be had.
   std::optional<std::vector<quadrille::Place>> drawnLine(vtkSMSourceProxy* filter, bool isClosed);
   void finishLine(vtkSMSourceProxy* filter);
+  /// The feature curve at a click is none any more.
+  void finishClear(vtkSMSourceProxy* filter);
   void finishLoop(vtkSMSourceProxy* filter);
   void finishValence(vtkSMSourceProxy* filter);
+  /// Sizes from where the drag began to as far as it went.
+  void finishSize(vtkSMSourceProxy* filter);
   void finishMove(vtkSMSourceProxy* filter);
   void finishConnection(vtkSMSourceProxy* filter);
   /// The irregular vertex that is seen at the pixel, or none.
@@ -107,6 +115,7 @@ private:
   void showBalls();
 
   void perform(vtkSMSourceProxy* filter, const quadrille::NewConstraint& constraint);
+  void remove(vtkSMSourceProxy* filter, vtkSMSourceProxy* constraint);
   void applyValence();
   void showQuads(vtkSMSourceProxy* filter);
   /// Makes the quads anew and says what became of the constraint of this source.
@@ -121,6 +130,7 @@ private:
 
   Tool Current = Tool::None;
   int Valence = 3;
+  double SizeFactor = 0.5;
   QPointer<pqRenderView> View;
   QPointer<pqQuadrilleOverlay> Overlay;
   std::vector<unsigned long> Observers;

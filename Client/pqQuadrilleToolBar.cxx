@@ -20,6 +20,7 @@
 #include "vtkWeakPointer.h"
 
 #include <QAction>
+#include <QDoubleSpinBox>
 #include <QIcon>
 #include <QSpinBox>
 
@@ -48,7 +49,12 @@ const Button kButtons[] = {
     "Loop: drag across a body for a chain of edges that closes round it, or back to where the drag "
     "began" },
   { pqQuadrilleDrawing::Tool::Feature, "Feature",
-    "Feature: drag over the surface; the line becomes edges of the quads" },
+    "Feature: drag over the surface; the line becomes edges of the quads. Click on a feature curve "
+    "to clear it" },
+  { pqQuadrilleDrawing::Tool::Size, "Size",
+    "Size: drag from a place to as far as quads are to have the size that this bar says, times "
+    "that of "
+    "others" },
 };
 
 constexpr const char* kHelp = "QuadrilleHelp"; // property of an action: what it does
@@ -132,6 +138,7 @@ pqQuadrilleToolBar::pqQuadrilleToolBar(QWidget* parent)
   this->addTools();
   this->addSeparator();
   this->addValence();
+  this->addSize();
   this->Remove = this->add("Remove", "Remove Last: takes away the constraint that was made last");
   QObject::connect(
     this->Remove, &QAction::triggered, this->Drawing, &pqQuadrilleDrawing::removeLast);
@@ -182,6 +189,22 @@ void pqQuadrilleToolBar::addValence()
 }
 
 //-----------------------------------------------------------------------------
+void pqQuadrilleToolBar::addSize()
+{
+  this->Size = new QDoubleSpinBox(this);
+  this->Size->setObjectName("QuadrilleSizeNumber");
+  this->Size->setPrefix("Size ");
+  this->Size->setDecimals(2);
+  this->Size->setRange(0.1, 5);
+  this->Size->setSingleStep(0.1);
+  this->Size->setValue(this->Drawing->sizeFactor());
+  this->Size->setToolTip("Edge lengths where Size is dragged, over those of other quads");
+  this->addWidget(this->Size);
+  QObject::connect(this->Size, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this->Drawing,
+    &pqQuadrilleDrawing::setSizeFactor);
+}
+
+//-----------------------------------------------------------------------------
 void pqQuadrilleToolBar::watchPipeline()
 {
   this->Refresh.setSingleShot(true);
@@ -219,6 +242,7 @@ void pqQuadrilleToolBar::refresh()
       ? QString("this Quad Remesh has no constraint.")
       : reasonNot);
   this->Valence->setEnabled(reasonNot.isEmpty());
+  this->Size->setEnabled(reasonNot.isEmpty());
   if (!reasonNot.isEmpty() && this->Drawing->tool() != pqQuadrilleDrawing::Tool::None)
   {
     this->Drawing->setTool(pqQuadrilleDrawing::Tool::None);

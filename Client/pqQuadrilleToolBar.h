@@ -10,6 +10,7 @@
 
 class pqQuadrilleDrawing;
 class QAction;
+class QDoubleSpinBox;
 class QSpinBox;
 
 /// A button that makes quads of what is selected in the pipeline, and the drawing tools: a button for each, of which
@@ -28,6 +29,7 @@ private:
   QAction* add(const QString& name, const QString& help);
   void addTools();
   void addValence();
+  void addSize();
   void watchPipeline();
   /// Which buttons can do something.
   void refresh();
@@ -38,6 +40,7 @@ private:
   QList<QAction*> Tools;
   QAction* Remove = nullptr;
   QSpinBox* Valence = nullptr;
+  QDoubleSpinBox* Size = nullptr;
   QTimer Refresh; ///< the pipeline changes in several steps
 };
 

@@ -66,7 +66,7 @@ int vtkQuadConstraintSource::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  const bool isPoint = this->Kind == VALENCE;
+  const bool isPoint = this->Kind >= VALENCE;
   if (!this->Enabled || this->Points.size() < (isPoint ? 1 : 2))
   {
     return 1;
@@ -90,18 +90,21 @@ int vtkQuadConstraintSource::RequestData(
   isPoint ? output->SetVerts(cell) : output->SetLines(cell);
   auto valence = quadrille::newArray<vtkIntArray>(
     quadrille::arrays::kTargetValence, 1, static_cast<std::size_t>(count));
-  valence->Fill(isPoint ? this->Valence : 0);
+  valence->Fill(this->Kind == VALENCE ? this->Valence : 0);
   output->GetPointData()->AddArray(valence);
   // All kinds have all arrays, so that they can be put together.
   auto type = quadrille::newArray<vtkIntArray>(quadrille::arrays::kConstraintType);
   auto weight = quadrille::newArray<vtkDoubleArray>(quadrille::arrays::kGuidingWeight);
   auto radius = quadrille::newArray<vtkDoubleArray>(quadrille::arrays::kGuidingRadius);
-  type->InsertNextValue(isPoint ? 0 : this->Kind);
+  auto factor = quadrille::newArray<vtkDoubleArray>(quadrille::arrays::kSizeFactor);
+  type->InsertNextValue(this->Kind == VALENCE ? 0 : this->Kind);
   weight->InsertNextValue(this->Weight);
   radius->InsertNextValue(this->Radius);
+  factor->InsertNextValue(this->Factor);
   output->GetCellData()->AddArray(type);
   output->GetCellData()->AddArray(weight);
   output->GetCellData()->AddArray(radius);
+  output->GetCellData()->AddArray(factor);
   return 1;
 }
 
@@ -116,4 +119,5 @@ void vtkQuadConstraintSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Valence: " << this->Valence << "\n";
   os << indent << "Weight: " << this->Weight << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "Factor: " << this->Factor << "\n";
 }

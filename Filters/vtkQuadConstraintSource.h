@@ -5,7 +5,8 @@
  * @brief   one constraint for vtkQuadRemesh: a line or a point with the arrays that say what is asked for
  *
  * Lines have the cell arrays `ConstraintType` (see Kinds), `GuidingWeight` and `GuidingRadius`, and the point array
- * `TargetValence`, which is 0; a valence is a vertex with its `TargetValence`. Points need not lie on the surface. In
+ * `TargetValence`, which is 0; a valence is a vertex with its `TargetValence`; cleared features and sizes are vertices
+ * with their `ConstraintType`, sizes with `SizeFactor` and `GuidingRadius`. Points need not lie on the surface. In
  * ParaView there is a source of its own for each kind, with a widget in the view.
  */
 #ifndef vtkQuadConstraintSource_h
@@ -24,22 +25,24 @@ public:
   vtkTypeMacro(vtkQuadConstraintSource, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// What is asked for; of lines the value of `ConstraintType`.
+  /// What is asked for; of all but valences the value of `ConstraintType`.
   enum Kinds
   {
     FEATURE_CURVE = 0,
     GUIDING_STROKE = 1,
     CONNECTION = 2,
     CYCLE = 3,
-    MOVE = 4,   ///< the irregular vertex nearest to the first point goes to the last one
-    VALENCE = 5 ///< at the first point
+    MOVE = 4,            ///< the irregular vertex nearest to the first point goes to the last one
+    VALENCE = 5,         ///< at the first point
+    CLEARED_FEATURE = 6, ///< the feature curve at the first point is none
+    SIZE = 7             ///< edges within Radius of the first point are Factor times as long
   };
 
   ///@{
   /**
    * A Kinds. Default: GUIDING_STROKE.
    */
-  vtkSetClampMacro(Kind, int, FEATURE_CURVE, VALENCE);
+  vtkSetClampMacro(Kind, int, FEATURE_CURVE, SIZE);
   vtkGetMacro(Kind, int);
   ///@}
 
@@ -93,10 +96,18 @@ public:
   ///@{
   /**
    * Of a guiding stroke: what lies within this distance takes its direction, in units of the surface. 0: only what it
-   * runs over. Default: 0.
+   * runs over. Of a size: the straight distance within which it is asked for; 0: at the point. Default: 0.
    */
   vtkSetMacro(Radius, double);
   vtkGetMacro(Radius, double);
+  ///@}
+
+  ///@{
+  /**
+   * Of a size: the edge length there over the target edge length, above 0. Default: 0.5.
+   */
+  vtkSetMacro(Factor, double);
+  vtkGetMacro(Factor, double);
   ///@}
 
 protected:
@@ -117,6 +128,7 @@ private:
   int Valence = 3;
   double Weight = 1;
   double Radius = 0;
+  double Factor = 0.5;
 };
 
 #endif

@@ -11,6 +11,7 @@
 #include "Convert/MappedOutput.h"
 #include "Convert/PolyData.h"
 #include "Convert/Quads.h"
+#include "Evaluation/ConstraintMeasures.h"
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/ResultStore.h"
 #include "Runs/BackgroundRun.h"
@@ -294,6 +295,8 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   }
   const quadrille::RemeshResult& result = made.remeshed;
   asked.curves = result.curves;
+  asked.edgeLength =
+    quadrille::lengthOfSizeOne(result.targetEdgeLength, options.quads, result.quads.quads.size());
   this->TellRun(block, result);
   if (made.thinning)
   {

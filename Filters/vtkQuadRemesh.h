@@ -543,8 +543,9 @@ public:
   ///@{
   /// Optional input with any number of connections (port 6): constraints of all classes, as vtkQuadConstraintSource
   /// makes them. Lines by their cell array `ConstraintType` (0 or none: feature curve, 1 guiding stroke, 2 connection,
-  /// 3 cycle, 4 move: the irregular vertex nearest to the begin of the line goes to its end), points by their point
-  /// array `TargetValence`; without it, and without lines, all of them get PointValence.
+  /// 3 cycle, 4 move: the irregular vertex nearest to the begin of the line goes to its end), vertices by the same (6
+  /// cleared feature, 7 size, with `SizeFactor` and `GuidingRadius`), points by their point array `TargetValence`;
+  /// without all these all of them get PointValence.
   void AddConstraintsConnection(vtkAlgorithmOutput* output) { this->AddInputConnection(6, output); }
   void AddConstraintsData(vtkDataObject* data) { this->AddInputDataObject(6, data); }
   void RemoveAllConstraints() { this->SetInputConnection(6, nullptr); }
@@ -552,9 +553,8 @@ public:
 
   /// With InBackground on an execution leaves the run to a thread of its own and ends at once, with the outcome
   /// Underway and the outputs as they were. The next execution with the same inputs and properties makes the outputs of
-  /// that run, one with others stops it. Not done with composite data, on several ranks, and from
-  /// kTrianglesWorthPieces on (Core/Ways): there an execution is as ever. The quads are the same. Default: off. It is no
-  /// property of the result.
+  /// that run, one with others stops it. Composite data, several ranks, and surfaces from kTrianglesWorthPieces on
+  /// (Core/Ways) are executed as ever. The quads are the same. Default: off. It is no property of the result.
   void SetInBackground(vtkTypeBool on) { this->InBackground = on; }
   vtkTypeBool GetInBackground() const { return this->InBackground; }
 

@@ -15,6 +15,7 @@
 #include "Convert/PolyData.h"
 #include "Convert/Quads.h"
 #include "Convert/Surfaces.h"
+#include "Evaluation/ConstraintMeasures.h"
 #include "Evaluation/ConstraintWords.h"
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/ResultStore.h"
@@ -180,6 +181,9 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
     own.targetQuads = static_cast<std::size_t>(
       std::lround(shares[i] * static_cast<double>(result.targetQuads) / oncePerFace));
     asked[i].curves = own.curves;
+    asked[i].edgeLength = quadrille::lengthOfSizeOne(own.targetEdgeLength,
+      options.quads ? std::optional<std::size_t>(own.targetQuads) : std::nullopt,
+      own.quads.quads.size());
     if (own.quads.quads.empty() && this->Method != METHOD_SEAMLESS)
     {
       withoutQuads.push_back(i);

@@ -19,7 +19,9 @@
  * there; their points go to the nearest places on the surface, wherever that has its own:
  * - port 1, feature curves: polylines that become features, straight over the faces of the surface. The line cell
  *   array `ConstraintType` may say 1: a guiding stroke instead; 2: a connection; 3: a cycle; 4: a move of an irregular
- *   vertex (see vtkQuadRemesh, which has inputs for them, too); other values than 0 to 4 are an error;
+ *   vertex (see vtkQuadRemesh, which has inputs for them, too); other values than 0 to 4 are an error. Vertices of
+ *   which it says 6 clear the feature curves there, those of 7 ask for edges that are `SizeFactor` times as long within
+ *   `GuidingRadius`, both of them cell arrays;
  * - port 2, guiding strokes: polylines whose direction the surface below takes with StrokeWeight, or with the line cell
  *   array `GuidingWeight`, as far as StrokeRadius, or the line cell array `GuidingRadius`, says;
  * - port 3, valence points: points, with cells or without. At the nearest place on the surface comes a vertex of

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Native/RemeshCall.h"
 
+#include "Evaluation/ConstraintMeasures.h"
 #include "Native/Arrays.h"
 #include "Native/Errors.h"
 #include "Native/ProgressCall.h"
@@ -24,7 +25,6 @@ struct HowToRun
   bool preview = false;
   bool everything = false;
   double timeLimit = 0;
-  double strokeRadius = 0;
   std::optional<SymmetryOptions> symmetry;
 };
 
@@ -47,7 +47,6 @@ HowToRun howToRun(const py::dict& how)
   run.preview = valueOr(how, "preview", false);
   run.everything = valueOr(how, "everything", false);
   run.timeLimit = valueOr(how, "time_limit", 0.0);
-  run.strokeRadius = valueOr(how, "stroke_radius", 0.0);
   if (how.contains("symmetry"))
   {
     run.symmetry.emplace();
@@ -71,20 +70,29 @@ HowToRun howToRun(const py::dict& how)
   return run;
 }
 
-std::vector<std::pair<int, std::vector<Vector3>>> drawnLines(const py::list& lines)
+/// What is drawn, as Line of the package has it.
+struct DrawnByKind
 {
-  std::vector<std::pair<int, std::vector<Vector3>>> drawn;
+  int kind = 0;
+  std::vector<Vector3> points;
+  double radius = 0;
+  double factor = 1;
+};
+
+std::vector<DrawnByKind> drawnLines(const py::list& lines)
+{
+  std::vector<DrawnByKind> drawn;
   for (const py::handle& line : lines)
   {
-    const auto pair = line.cast<py::tuple>();
-    drawn.emplace_back(pair[0].cast<int>(), vectorsFrom(pair[1].cast<ArrayOf<double>>()));
+    const auto fields = line.cast<py::tuple>();
+    drawn.push_back({ fields[0].cast<int>(), vectorsFrom(fields[1].cast<ArrayOf<double>>()),
+      fields[2].cast<double>(), fields[3].cast<double>() });
   }
   return drawn;
 }
 
-/// Puts the lines on the surface.
-PlacedConstraints placeLines(
-  SurfaceInput& input, std::vector<std::pair<int, std::vector<Vector3>>> lines, double strokeRadius)
+/// Puts the lines and points on the surface.
+PlacedConstraints placeLines(SurfaceInput& input, std::vector<DrawnByKind> lines)
 {
   if (lines.empty() || input.polygonPoints.empty())
   {
@@ -97,18 +105,24 @@ PlacedConstraints placeLines(
   for (std::size_t i = 0; i < lines.size(); ++i)
   {
     const auto source = static_cast<std::int64_t>(i);
-    auto& [kind, points] = lines[i];
-    switch (kind)
+    DrawnByKind& line = lines[i];
+    switch (line.kind)
     {
       case 0:
-        placement.addFeature({ source, std::move(points) });
+        placement.addFeature({ source, std::move(line.points) });
         break;
       case 1:
-        placement.addStroke({ source, std::move(points) }, 1, strokeRadius);
+        placement.addStroke({ source, std::move(line.points) }, 1, line.radius);
+        break;
+      case 6:
+        placement.addCleared(source, line.points.front());
+        break;
+      case 7:
+        placement.addSize(source, line.points.front(), line.radius, line.factor);
         break;
       default:
-        placement.addCurve(
-          source, kind == 2 ? CurveKind::Connection : CurveKind::Cycle, std::move(points));
+        placement.addCurve(source, line.kind == 2 ? CurveKind::Connection : CurveKind::Cycle,
+          std::move(line.points));
     }
   }
   placement.addTo(input);
@@ -137,7 +151,7 @@ py::dict remeshCall(const py::dict& surface, const std::string& settings, const 
     {
       remeshed.asked.arrays = arrayConstraints(input);
       remeshed.sizing = input.sizing;
-      PlacedConstraints placed = placeLines(input, std::move(drawn), howTo.strokeRadius);
+      PlacedConstraints placed = placeLines(input, std::move(drawn));
       remeshed.asked.placed = std::move(placed.placed);
       remeshed.notices = std::move(placed.notices);
       QuadProblem problem;
@@ -157,6 +171,8 @@ py::dict remeshCall(const py::dict& surface, const std::string& settings, const 
     throw RunFailure(result.status.message.empty() ? "remeshing failed" : result.status.message);
   }
   remeshed.asked.curves = result.curves;
+  remeshed.asked.edgeLength =
+    lengthOfSizeOne(result.targetEdgeLength, options.quads, result.quads.quads.size());
   if (remeshed.made.thinning)
   {
     remeshed.notices.push_back(remeshed.made.thinning->text());

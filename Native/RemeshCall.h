@@ -27,11 +27,11 @@ struct Remeshed
   bool everything = false;
 };
 
-/// surface: see surfaceFrom. settings: JSON, see SessionJson.h. how: "preview", "everything", "time_limit",
-/// "stroke_radius", and where they are asked for "symmetry" ("found", or "origin" and "normal" beside it as
-/// "symmetry_plane"), "plane_curve", "rotation_order", "rotation_axis". lines: pairs of a kind (0 feature, 1 stroke,
-/// 2 connection, 3 cycle) and its points. progress: None, or a function, see ProgressCall. Returns a dict of arrays,
-/// see resultDict. Raises InvalidInput, else RemeshError.
+/// surface: see surfaceFrom. settings: JSON, see SessionJson.h. how: "preview", "everything", "time_limit", and where
+/// they are asked for "symmetry" ("found", or "origin" and "normal" beside it as "symmetry_plane"), "plane_curve",
+/// "rotation_order", "rotation_axis". lines: tuples of a kind (0 feature, 1 stroke, 2 connection, 3 cycle, 6 cleared
+/// feature, 7 size), its points, its radius and its factor. progress: None, or a function, see ProgressCall. Returns a
+/// dict of arrays, see resultDict. Raises InvalidInput, else RemeshError.
 py::dict remeshCall(const py::dict& surface, const std::string& settings, const py::dict& how,
   const py::list& lines, const py::object& progress);
 

@@ -404,6 +404,10 @@ private:
     {
       size.place += offsetAt(size.place);
     }
+    for (Vector3& place : drawn.cleared)
+    {
+      place += offsetAt(place);
+    }
   }
 
   void moveApart()

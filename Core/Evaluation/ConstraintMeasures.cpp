@@ -5,6 +5,7 @@
 #include "Base/Angles.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Mesh/Distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -224,6 +225,32 @@ ConstraintMeasure ConstraintMeasures::guide(
   return word;
 }
 
+ConstraintMeasure ConstraintMeasures::cleared(const Vector3& place)
+{
+  ConstraintMeasure word = ConstraintMeasure::unknown(place, "edge lengths", kNoQuads);
+  const double edgeLength = edgeLengthAt(place);
+  if (!(edgeLength > 0))
+  {
+    return word;
+  }
+  word.deviation = std::numeric_limits<double>::infinity();
+  for (const QuadLine& line : mesh_.lines)
+  {
+    if (!line.boundary)
+    {
+      const double distance = distanceToSegment(place, mesh_.points[line.a], mesh_.points[line.b]);
+      word.deviation = std::min(word.deviation, distance / edgeLength);
+    }
+  }
+  word.isMet = word.deviation > kMetDistance;
+  word.reason = word.isMet ? ""
+                           : "a feature of the quads is " + shortText(word.deviation) +
+      " edge lengths away, more than " + shortText(kMetDistance) +
+      " counts as met: put the point on that curve, away from its ends, or take the curve that was "
+      "drawn there away";
+  return word;
+}
+
 ConstraintMeasure ConstraintMeasures::curve(const std::vector<Vector3>& path)
 {
   std::vector<std::array<Vector3, 2>> edges;
@@ -395,6 +422,13 @@ std::optional<LineInQuads> ConstraintMeasures::lineInQuads(const PlacedConstrain
     lines_.emplace(mesh_, quads());
   }
   return lines_->find(constraint);
+}
+
+double lengthOfSizeOne(double targetEdgeLength, std::optional<std::size_t> asked, std::size_t quads)
+{
+  return asked && quads > 0
+    ? targetEdgeLength * std::sqrt(static_cast<double>(*asked) / static_cast<double>(quads))
+    : targetEdgeLength;
 }
 
 ConstraintMeasure ConstraintMeasures::sizeOf(const std::vector<std::pair<Index, double>>& quads,

@@ -81,6 +81,11 @@ struct AskedSize
   double edgeLength = 0; ///< of quads where the size is 1
 };
 
+/// AskedSize::edgeLength for a target edge length, where so many quads were made; asked: the number that was asked for,
+/// against which lengths count then; none: it was not a number.
+double lengthOfSizeOne(
+  double targetEdgeLength, std::optional<std::size_t> asked, std::size_t quads);
+
 class ConstraintMeasures
 {
 public:
@@ -95,6 +100,8 @@ public:
   /// "edge lengths": the largest distance from the quads' edges, over the length of these. curve: not empty.
   ConstraintMeasure curve(const std::vector<std::array<Vector3, 2>>& curve);
   ConstraintMeasure curve(const std::vector<Vector3>& path);
+  /// "edge lengths": from the place to the nearest feature of the quads, 0.3 at least; infinite where they have none.
+  ConstraintMeasure cleared(const Vector3& place);
   /// "edge lengths": from the place to the nearest point of the quads with the valence, on boundaries one more than the
   /// edges there; of a regular one 0, if the nearest point is one.
   ConstraintMeasure valence(const Vector3& place, int asked);

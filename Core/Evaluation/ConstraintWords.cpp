@@ -228,6 +228,15 @@ ConstraintWord Judge::measured(std::size_t i)
   {
     return valenceAt(constraint.source, place, constraint.valence);
   }
+  if (constraint.kind == ConstraintKind::Size)
+  {
+    return worded(nameOf(constraint.kind), constraint.source,
+      measures_.size(place, constraint.radius, { constraint.factor, asked_.edgeLength }));
+  }
+  if (constraint.kind == ConstraintKind::Cleared)
+  {
+    return worded(nameOf(constraint.kind), constraint.source, measures_.cleared(place));
+  }
   if (constraint.kind == ConstraintKind::Move && !constraint.whyNot.empty())
   {
     return placed(unknownWord("move", constraint.source, "edge lengths", constraint.whyNot), place);

@@ -21,6 +21,7 @@ struct AskedConstraints
   ArrayConstraints arrays;
   std::vector<PlacedConstraint> placed;
   std::vector<CurveOutcome> curves; ///< of the run, see PlacedConstraint::curve; empty before
+  double edgeLength = 0;            ///< of the run, see AskedSize
 };
 
 /// A row of the table. What could not be measured is not a number.

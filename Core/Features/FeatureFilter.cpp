@@ -469,6 +469,54 @@ std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& po
   return found;
 }
 
+std::vector<ClearedFeature> clearFeatures(
+  Mesh& mesh, const std::vector<Vector3>& places, double within)
+{
+  constexpr auto keep =
+    static_cast<std::uint8_t>(~(kFeatureEdge | kRequestedFeature | kYieldingFeature));
+  std::vector<ClearedFeature> cleared;
+  const std::vector<Index> edges = constrainedEdges(mesh);
+  const FeatureGraph graph(mesh, edges);
+  const std::vector<Chain>& chains = graph.chains();
+  std::vector<const Chain*> gone; // which are no boundary: that meets features at nodes only
+  for (const Vector3& place : places)
+  {
+    ClearedFeature& found = cleared.emplace_back();
+    found.distance = std::numeric_limits<double>::infinity();
+    const Chain* nearest = nullptr;
+    for (const Chain& chain : chains)
+    {
+      for (const Index h : chain.halfEdges)
+      {
+        const Vector3& a = mesh.position[mesh.origin[h]];
+        const Vector3& b = mesh.position[mesh.target(h)];
+        const double distance =
+          mesh.isBoundary(h) ? found.distance : distanceToSegment(place, a, b);
+        if (distance < found.distance)
+        {
+          found.distance = distance;
+          found.nearest = nearestOnSegment(place, a, b);
+          nearest = &chain;
+        }
+      }
+    }
+    if (nearest != nullptr && found.distance <= within)
+    {
+      found.length = nearest->length;
+      gone.push_back(nearest);
+    }
+  }
+  for (const Chain* chain : gone)
+  {
+    for (const Index h : chain->halfEdges)
+    {
+      mesh.flags.edit()[h] &= keep;
+      mesh.flags.edit()[mesh.twin[h]] &= keep;
+    }
+  }
+  return cleared;
+}
+
 std::string inEdgeLengths(double length)
 {
   std::ostringstream text;

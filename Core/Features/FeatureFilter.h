@@ -38,6 +38,20 @@ bool mayBeGivenUp(const Mesh& mesh, Index h);
 std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& points, double radius,
   bool (*isOne)(const Mesh&, Index));
 
+/// What became of a place where a user wants no feature.
+struct ClearedFeature
+{
+  double distance = 0;               ///< of the nearest feature; infinite where there is none
+  Vector3 nearest = Vector3::Zero(); ///< the nearest place on it
+  double length = 0; ///< of the curve that is none any more; 0: the nearest is too far away
+};
+
+/// Unmarks, for each place, the curve of features that is nearest to it, if that is within a distance: one between
+/// vertices where other than two constrained edges meet, or a loop. Also those that were asked for. What one place
+/// clears the others do not see.
+std::vector<ClearedFeature> clearFeatures(
+  Mesh& mesh, const std::vector<Vector3>& places, double within);
+
 /// A length of features as messages tell it, to two or three digits.
 std::string inEdgeLengths(double length);
 

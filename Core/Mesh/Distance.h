@@ -12,6 +12,15 @@
 namespace quadrille
 {
 
+/// The place on the segment from a to b nearest to p; the segment may be a point.
+inline Vector3 nearestOnSegment(const Vector3& p, const Vector3& a, const Vector3& b)
+{
+  const Vector3 ab = b - a;
+  const double squared = ab.squaredNorm();
+  const double t = squared > 0 ? std::clamp((p - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
+  return a + t * ab;
+}
+
 /// From p to the segment from a to b, which may be a point.
 inline double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b)
 {
@@ -41,13 +50,6 @@ inline double distanceToFace(const Mesh& mesh, Index f, const Vector3& p)
 inline Vector3 nearestOnTriangle(
   const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c)
 {
-  const auto onSegment = [&p](const Vector3& from, const Vector3& to) -> Vector3
-  {
-    const Vector3 along = to - from;
-    const double squared = along.squaredNorm();
-    const double t = squared > 0 ? std::clamp((p - from).dot(along) / squared, 0.0, 1.0) : 0.0;
-    return from + t * along;
-  };
   const Vector3 normal = (b - a).cross(c - a);
   const double area = normal.squaredNorm();
   const double u = normal.dot((c - b).cross(p - b));
@@ -57,8 +59,8 @@ inline Vector3 nearestOnTriangle(
   {
     return (u * a + v * b + w * c) / (u + v + w);
   }
-  Vector3 nearest = onSegment(a, b);
-  for (const Vector3& other : { onSegment(b, c), onSegment(c, a) })
+  Vector3 nearest = nearestOnSegment(p, a, b);
+  for (const Vector3& other : { nearestOnSegment(p, b, c), nearestOnSegment(p, c, a) })
   {
     nearest = (p - other).squaredNorm() < (p - nearest).squaredNorm() ? other : nearest;
   }

@@ -209,10 +209,12 @@ struct DrawnRequests
   std::vector<StrokeRequest> strokes;
   std::vector<ValencePlace> valences;
   std::vector<SizeRequest> sizes;
+  std::vector<Vector3> cleared; ///< the feature curves there are no features, see clearFeatures
 
   bool empty() const
   {
-    return features.empty() && strokes.empty() && valences.empty() && sizes.empty();
+    return features.empty() && strokes.empty() && valences.empty() && sizes.empty() &&
+      cleared.empty();
   }
   void append(const DrawnRequests& other)
   {
@@ -220,6 +222,7 @@ struct DrawnRequests
     strokes.insert(strokes.end(), other.strokes.begin(), other.strokes.end());
     valences.insert(valences.end(), other.valences.begin(), other.valences.end());
     sizes.insert(sizes.end(), other.sizes.begin(), other.sizes.end());
+    cleared.insert(cleared.end(), other.cleared.begin(), other.cleared.end());
   }
   /// Calls place(Vector3&) for each point and length(double&) for each radius.
   template <class PlaceVisitor, class LengthVisitor>
@@ -243,6 +246,7 @@ struct DrawnRequests
       place(size.place);
       length(size.radius);
     }
+    std::for_each(cleared.begin(), cleared.end(), place);
   }
 };
 

@@ -70,7 +70,7 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
   options.progress = subProgress(given.progress, 0.6, 0.9);
   std::vector<SmallDetail> closed;
   PreparedSurface surface = thinned.surface(options.threads, closed);
-  sized = sizePrepared(std::move(surface), framed.input.drawn.valences, options, std::move(sized));
+  sized = sizePrepared(std::move(surface), framed.input.drawn, options, std::move(sized));
   remeshSized(sized, frame, options, nullptr, false, made);
   tellClosedHandles(closed, made);
   putOnUserSurface(sized, { frame, {}, userPoints }, options, false, made);

@@ -2,16 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/DrawnOnSurface.h"
 
+#include "Base/PlaceText.h"
+#include "Features/FeatureFilter.h"
 #include "Mesh/ContentHash.h"
 #include "Prepare/Refine.h"
 #include "Requests/InsertPlaces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace quadrille
 {
 namespace
 {
+
+/// Edge lengths between a place and the feature curve that it clears, at most.
+constexpr double kNearCleared = 0.5;
 
 /// Orders of sizes of points, at the vertices that they became.
 std::vector<int> sizingOrdersOf(const std::vector<int>& orders, const PreparedSurface& surface)
@@ -62,6 +69,38 @@ void drawSizes(PreparedSurface& surface, const SurfaceInput& input, double edgeL
   insertSizes(surface, input.drawn.sizes, sizingOrdersOf(input.sizingOrders, surface),
     { edgeLength, threads });
   noteAdded(surface, before, threads, notices);
+}
+
+void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, double edgeLength,
+  int threads, std::vector<std::string>& notices)
+{
+  if (places.empty())
+  {
+    return;
+  }
+  const std::vector<ClearedFeature> cleared =
+    clearFeatures(surface.mesh, places, kNearCleared * edgeLength);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const ClearedFeature& found = cleared[i];
+    const std::string where = placeText(places[i]);
+    if (found.length > 0)
+    {
+      notices.push_back("the feature curve at " + where + ", " +
+        inEdgeLengths(found.length / edgeLength) + " edge lengths long, is cleared, as asked");
+    }
+    else if (std::isfinite(found.distance))
+    {
+      notices.push_back("no feature was cleared at " + where + ": the nearest is " +
+        inEdgeLengths(found.distance / edgeLength) + " edge lengths away, at " +
+        placeText(found.nearest) + "; put the point on the curve that is to go");
+    }
+    else
+    {
+      notices.push_back("no feature was cleared at " + where + ": the surface has none");
+    }
+  }
+  surface.hash = contentHash(surface.mesh, threads);
 }
 
 void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& features,

@@ -285,18 +285,23 @@ std::vector<ResultKey> endsOfConstraints(const Mesh& mesh)
   return ends;
 }
 
-/// Features that are drawn, on the sized surface: its triangles are no larger than quads, and their parts neither.
-void addFeatures(const std::vector<FeatureRequest>& features, const RemeshOptions& options,
-  PreparedSurface& surface, SizedSurface& sized)
+/// Features that are cleared or drawn, on the sized surface: its triangles are no larger than quads, and their parts
+/// neither.
+void addFeatures(const DrawnRequests& drawn, const RemeshOptions& options, PreparedSurface& surface,
+  SizedSurface& sized)
 {
-  if (features.empty())
+  if (drawn.features.empty() && drawn.cleared.empty())
   {
     return;
   }
   const double start = secondsNow();
   const std::size_t before = surface.mesh.faceCount();
   const std::vector<ResultKey> ends = endsOfConstraints(surface.mesh);
-  drawFeatures(surface, features, sized.edgeLength, options.threads, sized.notices);
+  clearDrawn(surface, drawn.cleared, sized.edgeLength, options.threads, sized.notices);
+  if (!drawn.features.empty())
+  {
+    drawFeatures(surface, drawn.features, sized.edgeLength, options.threads, sized.notices);
+  }
   filterFeatures(surface, options, sized);
   splitEnclosedFaces(surface);
   splitChords(surface);
@@ -331,7 +336,7 @@ void addDrawn(const SurfaceInput& input, const RemeshOptions& options, PreparedS
   sized.own = { surface.mesh.vertexCount(), {}, 0 };
   if (sized.status.ok())
   {
-    addFeatures(input.drawn.features, options, surface, sized);
+    addFeatures(input.drawn, options, surface, sized);
     placeHeld(input, surface);
     addValences(input.drawn.valences, options, surface, sized);
   }
@@ -493,7 +498,7 @@ PreparedSurface prepareDrawn(SurfaceInput& input, const RemeshOptions& options,
   return surface;
 }
 
-SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlace>& valences,
+SizedSurface sizePrepared(PreparedSurface surface, const DrawnRequests& drawn,
   const RemeshOptions& options, SizedSurface sized)
 {
   setTarget(areaOverSizes(surface), surface.boundingBoxDiagonal, options, sized);
@@ -501,7 +506,8 @@ SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlac
   sizePreparedSurface(surface, options, sized);
   if (sized.status.ok())
   {
-    addValences(valences, options, surface, sized);
+    clearDrawn(surface, drawn.cleared, sized.edgeLength, options.threads, sized.notices);
+    addValences(drawn.valences, options, surface, sized);
   }
   return finished(std::move(surface), options, nullptr, std::move(sized));
 }

@@ -69,8 +69,9 @@ SizedSurface sizeSurface(
 /// gets stages and notices.
 PreparedSurface prepareDrawn(SurfaceInput& input, const RemeshOptions& options,
   const ProgressCallback& progress, SizedSurface& sized);
-/// Then from the prepared surface on. sized: as the first step has left it. valences: drawn in the frame.
-SizedSurface sizePrepared(PreparedSurface surface, const std::vector<ValencePlace>& valences,
+/// Then from the prepared surface on. sized: as the first step has left it. drawn: in the frame; its features are drawn
+/// already, so that one at a cleared place is cleared with what was there.
+SizedSurface sizePrepared(PreparedSurface surface, const DrawnRequests& drawn,
   const RemeshOptions& options, SizedSurface sized);
 
 /// Sizes that the shape of the surface asks for. Where a number of quads is asked for, the edge length is the one

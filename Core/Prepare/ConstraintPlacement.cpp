@@ -7,10 +7,28 @@
 #include "Requests/CurveRequests.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace quadrille
 {
+
+namespace
+{
+
+PlacedConstraint atPlace(
+  ConstraintKind kind, std::int64_t source, const Vector3& given, const Vector3& place)
+{
+  PlacedConstraint placed;
+  placed.kind = kind;
+  placed.source = source;
+  placed.given = { given };
+  placed.path = { place };
+  placed.distance = (place - given).norm();
+  return placed;
+}
+
+} // namespace
 
 std::vector<Vector3> courseOf(
   const CurveRequest& curve, const SurfacePlaces& places, const SurfacePaths& paths)
@@ -140,31 +158,39 @@ void ConstraintPlacement::addValence(std::int64_t source, const Vector3& point, 
   {
     requests_.valences.push_back({ place.point, valence });
   }
-  PlacedConstraint placed;
-  placed.kind = ConstraintKind::Valence;
-  placed.source = source;
-  placed.given = { point };
-  placed.path = { place.point };
-  placed.distance = (place.point - point).norm();
+  PlacedConstraint placed = atPlace(ConstraintKind::Valence, source, point, place.point);
   placed.valence = valence;
   result_.placed.push_back(std::move(placed));
 }
 
-Vector3 ConstraintPlacement::addSize(const Vector3& point, double radius, double factor, int order)
+void ConstraintPlacement::addCleared(std::int64_t source, const Vector3& point)
 {
-  Vector3 place = places_.nearestPlace(point).point;
+  const Vector3 place = places_.nearestPlace(point).point;
+  requests_.cleared.push_back(place);
+  result_.placed.push_back(atPlace(ConstraintKind::Cleared, source, point, place));
+}
+
+void ConstraintPlacement::addSize(
+  std::int64_t source, const Vector3& point, double radius, double factor, int order)
+{
+  if (!(radius >= 0) || !std::isfinite(radius) || !(factor > 0) || !std::isfinite(factor))
+  {
+    refuse("size ", source, " at ", placeText(point), " has the radius ", radius,
+      " and the factor ", factor, ", but needs a radius of at least 0 and a factor above 0");
+  }
+  const Vector3 place = places_.nearestPlace(point).point;
   requests_.sizes.push_back({ place, radius, factor, order });
-  return place;
+  PlacedConstraint placed = atPlace(ConstraintKind::Size, source, point, place);
+  placed.radius = radius;
+  placed.factor = factor;
+  result_.placed.push_back(std::move(placed));
 }
 
 void ConstraintPlacement::leaveOutValence(
   std::int64_t source, const Vector3& point, int valence, const std::string& whyNot)
 {
-  PlacedConstraint placed;
-  placed.kind = ConstraintKind::Valence;
-  placed.source = source;
-  placed.given = { point };
-  placed.path = { places_.nearestPlace(point).point };
+  PlacedConstraint placed =
+    atPlace(ConstraintKind::Valence, source, point, places_.nearestPlace(point).point);
   placed.valence = valence;
   placed.whyNot = whyNot;
   result_.notices.push_back("valence point " + std::to_string(source) + " is left out: " + whyNot);

@@ -44,8 +44,13 @@ public:
   /// The nearest place on the surface. Throws InvalidInput where it asks for another valence already, and for a corner
   /// of no quads on the boundary.
   void addValence(std::int64_t source, const Vector3& point, int valence);
-  /// The nearest place on the surface, which is returned.
-  Vector3 addSize(const Vector3& point, double radius, double factor, int order = 0);
+  /// The nearest place on the surface, see SizeRequest. Throws InvalidInput where the radius is negative or the factor
+  /// is not positive.
+  void addSize(
+    std::int64_t source, const Vector3& point, double radius, double factor, int order = 0);
+
+  /// The nearest place on the surface, where no feature is to be.
+  void addCleared(std::int64_t source, const Vector3& point);
 
   /// A valence that is not asked for, and why not: it contradicts an earlier one, say. The rest is done.
   void leaveOutValence(

@@ -17,6 +17,10 @@ const char* nameOf(ConstraintKind kind)
       return "valence";
     case ConstraintKind::Connection:
       return "connection";
+    case ConstraintKind::Cleared:
+      return "cleared feature";
+    case ConstraintKind::Size:
+      return "size";
     case ConstraintKind::Move:
       return "move";
     default:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a user draws beside the surface: feature curves, guiding strokes, connections, cycles and points with valences;
-/// and where it lies on the surface, see ConstraintPlacement.
+/// What a user draws beside the surface: feature curves, guiding strokes, connections, cycles, and points with
+/// valences, with sizes, or whose features are to be none; and where it lies on the surface, see ConstraintPlacement.
 #pragma once
 
 #include "Requests/GuidedPlaces.h"
@@ -21,7 +21,9 @@ enum class ConstraintKind
   Connection = 4,
   Cycle = 6,
   Move =
-    8 ///< of an irregular vertex, see Session/IrregularEdits.h; its path leads from the old place to the new one
+    8, ///< of an irregular vertex, see Session/IrregularEdits.h; its path leads from the old place to the new one
+  Cleared = 12, ///< a feature that is to be none; 10 is the mirror plane
+  Size = 14     ///< of quads within a radius of a place
 };
 
 /// What arrays and messages call it.
@@ -38,7 +40,8 @@ struct PlacedConstraint
   double distance =
     0; ///< of the farthest given point to its place on the surface, in units of the input
   double weight = 0; ///< of strokes
-  double radius = 0; ///< the same
+  double radius = 0; ///< the same, and of sizes
+  double factor = 1; ///< of sizes, see SizeRequest
   int valence = 0;   ///< asked for; of a move that of its vertex
   std::vector<GuidedPlace>
     guided;              ///< of strokes: some of the places where they ask for a direction

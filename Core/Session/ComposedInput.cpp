@@ -77,6 +77,12 @@ public:
     }
   }
 
+  void operator()(const ClearedAt& at)
+  {
+    part().place = where_.places.nearestPlace(at.point).point;
+    composed_.input.drawn.cleared.push_back(part().place);
+  }
+
   void operator()(const GuideStroke&)
   {
     const LinePlacements::Placed& placed = takePlaced();

@@ -36,14 +36,12 @@ public:
     const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
     const SessionResult& result, const SymmetricResult* symmetric, bool isOfNumber)
     : surface_(surface), places_(places), constraints_(constraints), composed_(composed),
-      quads_(made.quads), curves_(made.curves), madeEdgeLength_(made.targetEdgeLength),
+      quads_(made.quads), curves_(made.curves),
+      madeEdgeLength_(lengthOfSizeOne(made.targetEdgeLength,
+        isOfNumber ? std::optional<std::size_t>(result.targetQuads) : std::nullopt,
+        made.quads.quads.size())),
       symmetric_(symmetric), measures_(made.quads)
   {
-    if (isOfNumber && !quads_.quads.empty())
-    {
-      madeEdgeLength_ *= std::sqrt(
-        static_cast<double>(result.targetQuads) / static_cast<double>(quads_.quads.size()));
-    }
     std::size_t guides = 0;
     for (const PlacedPart& part : composed.parts)
     {
@@ -70,6 +68,7 @@ public:
   }
 
   ConstraintMeasure operator()(const FeatureLine&) { return measures_.curve(part_->path); }
+  ConstraintMeasure operator()(const ClearedAt&) { return measures_.cleared(part_->place); }
   ConstraintMeasure operator()(const GuideStroke& stroke) { return guide(stroke.weight); }
   ConstraintMeasure operator()(const GuideRegion& region) { return guide(region.weight); }
   ConstraintMeasure operator()(const ValenceAt& at)

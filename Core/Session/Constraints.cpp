@@ -33,6 +33,7 @@ public:
   }
 
   void operator()(const FeatureLine& line) const { requirePoints(line.points, 2); }
+  void operator()(const ClearedAt& at) const { requirePoints({ at.point }, 1); }
   void operator()(const GuideStroke& stroke) const
   {
     requirePoints(stroke.points, 2);
@@ -184,7 +185,8 @@ private:
 const char* kindOf(const ConstraintContent& content)
 {
   constexpr const char* kConstraintKinds[] = { "feature", "guide", "guide region", "valence",
-    "size", "size region", "irregular", "connection", "cycle", "symmetry", "rotation" };
+    "size", "size region", "irregular", "connection", "cycle", "symmetry", "rotation",
+    "cleared feature" };
   static_assert(std::variant_size_v<ConstraintContent> == std::size(kConstraintKinds));
   return kConstraintKinds[content.index()];
 }
@@ -195,6 +197,7 @@ std::vector<Vector3> pointsOf(const ConstraintContent& content)
   return std::visit(
     ByKind{ [](const ValenceAt& at) { return Points{ at.point }; },
       [](const SizeAt& at) { return Points{ at.point }; },
+      [](const ClearedAt& at) { return Points{ at.point }; },
       [](const GuideRegion&) { return Points{}; }, [](const SizeRegion&) { return Points{}; },
       [](const MirrorSymmetry&) { return Points{}; },
       [](const RotationalSymmetry&) { return Points{}; },

@@ -25,6 +25,12 @@ struct FeatureLine
   std::vector<Vector3> points; ///< 2 or more
 };
 
+/// The feature curve at a place is none, see clearFeatures.
+struct ClearedAt
+{
+  Vector3 point = Vector3::Zero();
+};
+
 /// A polyline that edges of the quads should follow, see ConstraintPlacement::addStroke.
 struct GuideStroke
 {
@@ -164,10 +170,10 @@ struct RotationalSymmetry
 };
 
 using ConstraintContent = std::variant<FeatureLine, GuideStroke, GuideRegion, ValenceAt, SizeAt,
-  SizeRegion, IrregularEdit, Connection, Cycle, MirrorSymmetry, RotationalSymmetry>;
+  SizeRegion, IrregularEdit, Connection, Cycle, MirrorSymmetry, RotationalSymmetry, ClearedAt>;
 
 /// "feature", "guide", "guide region", "valence", "size", "size region", "irregular", "connection", "cycle",
-/// "symmetry", "rotation".
+/// "symmetry", "rotation", "cleared feature".
 const char* kindOf(const ConstraintContent& content);
 /// The points that it was drawn at; none of regions and symmetries.
 std::vector<Vector3> pointsOf(const ConstraintContent& content);

@@ -33,6 +33,7 @@ struct ContentFields
   }
 
   void operator()(FeatureLine& line) const { points(line); }
+  void operator()(ClearedAt& at) const { json.need("point", at.point); }
   void operator()(GuideStroke& stroke) const
   {
     points(stroke);

@@ -24,15 +24,6 @@ namespace quadrille
 namespace
 {
 
-/// Constraints that can keep a run from a result; guides and sizes are followed as far as may be.
-bool mayFail(const SessionConstraint& constraint)
-{
-  const ConstraintContent& content = constraint.content;
-  return !std::holds_alternative<GuideStroke>(content) &&
-    !std::holds_alternative<GuideRegion>(content) && !std::holds_alternative<SizeAt>(content) &&
-    !std::holds_alternative<SizeRegion>(content);
-}
-
 bool mayBeForConstraints(const RemeshResult& made)
 {
   return !made.status.ok() && made.status.code != StatusCode::Cancelled &&
@@ -125,7 +116,7 @@ private:
     {
       return true;
     }
-    if (!hasFewerDetails(made) || leftOut.size() >= countOfThoseThatMayFail())
+    if (!hasFewerDetails(made) || leftOut.size() >= state_.constraints.size())
     {
       return false;
     }
@@ -134,21 +125,12 @@ private:
       std::map<int, std::string> all;
       for (const auto& constraint : state_.constraints)
       {
-        if (mayFail(*constraint))
-        {
-          all[constraint->id] = "not tried";
-        }
+        all[constraint->id] = "not tried";
       }
       hasFewerAnyway_ = hasFewerDetails(runWith(all));
       compose(leftOut);
     }
     return !*hasFewerAnyway_;
-  }
-
-  std::size_t countOfThoseThatMayFail() const
-  {
-    return static_cast<std::size_t>(std::count_if(state_.constraints.begin(),
-      state_.constraints.end(), [](const auto& constraint) { return mayFail(*constraint); }));
   }
 
   static std::string reasonOf(const RemeshResult& made)
@@ -302,7 +284,7 @@ private:
     std::vector<std::size_t> rest;
     for (std::size_t i = 0; i < state_.constraints.size(); ++i)
     {
-      if (mayFail(*state_.constraints[i]) && composed_.parts[i].whyNot.empty())
+      if (composed_.parts[i].whyNot.empty())
       {
         rest.push_back(i);
       }

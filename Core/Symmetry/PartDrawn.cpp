@@ -219,6 +219,10 @@ DrawnRequests drawnOfPart(const PartTask& task, const SurfacePart& part, const D
   PartPlaces places(task, part, notices);
   asked.valences = places.valences(drawn);
   asked.sizes = places.sizes(drawn);
+  for (const Vector3& place : drawn.cleared)
+  {
+    asked.cleared.push_back(task.isometry.image(place, task.stepsToPart(place)));
+  }
   return asked;
 }
 

@@ -11,6 +11,8 @@
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
@@ -62,6 +64,10 @@ bool hasLines(vtkPolyData* data)
   return data && data->GetNumberOfLines() > 0;
 }
 
+/// Values of ConstraintType of vertices.
+constexpr double kClearedType = 6;
+constexpr double kSizeType = 7;
+
 bool hasPoints(vtkPolyData* data)
 {
   return data && data->GetNumberOfPoints() > 0;
@@ -108,6 +114,60 @@ double radiusOf(vtkDataArray* radii, vtkIdType cell, double otherwise)
       ", but it must be a number of at least 0");
   }
   return radius;
+}
+
+/// The cells and points of vertices of a type.
+std::vector<std::pair<vtkIdType, Vector3>> placesOfType(vtkPolyData* data, double type)
+{
+  std::vector<std::pair<vtkIdType, Vector3>> places;
+  vtkDataArray* types = data ? data->GetCellData()->GetArray(arrays::kConstraintType) : nullptr;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; types && cell < data->GetNumberOfVerts(); ++cell)
+  {
+    if (types->GetComponent(cell, 0) != type)
+    {
+      continue;
+    }
+    data->GetVerts()->GetCellAtId(cell, corners);
+    for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+    {
+      Vector3 p;
+      data->GetPoint(corners->GetId(i), p.data());
+      if (!p.allFinite())
+      {
+        refuse(type == kSizeType ? "size " : "cleared feature ", cell,
+          " has a point that is not finite; place it anew");
+      }
+      places.emplace_back(cell, p);
+    }
+  }
+  return places;
+}
+
+bool hasPlaces(vtkPolyData* data)
+{
+  return !placesOfType(data, kClearedType).empty() || !placesOfType(data, kSizeType).empty();
+}
+
+/// Cleared features and sizes.
+void addPlaces(vtkPolyData* data, ConstraintPlacement& placement)
+{
+  for (const auto& [cell, place] : placesOfType(data, kClearedType))
+  {
+    placement.addCleared(cell, place);
+  }
+  for (const auto& [cell, place] : placesOfType(data, kSizeType))
+  {
+    vtkDataArray* factors = data->GetCellData()->GetArray(arrays::kSizeFactor);
+    vtkDataArray* radii = data->GetCellData()->GetArray(arrays::kGuidingRadius);
+    if (!factors)
+    {
+      refuse("size ", cell, " at ", placeText(place), " has no factor: give the cells an array '",
+        arrays::kSizeFactor, "', the edge length there over the target edge length");
+    }
+    placement.addSize(
+      cell, place, radii ? radii->GetComponent(cell, 0) : 0, factors->GetComponent(cell, 0));
+  }
 }
 
 void addCurves(vtkPolyData* curves, const ConstraintInputs& inputs, ConstraintPlacement& placement)
@@ -231,7 +291,7 @@ void addPoints(vtkPolyData* points, int valence, ConstraintPlacement& placement)
 int valenceOfMixed(vtkPolyData* mixed, int valence)
 {
   return mixed->GetPointData()->HasArray(arrays::kTargetValence) || hasLines(mixed) ||
-      connects(mixed)
+      connects(mixed) || hasPlaces(mixed)
     ? 0
     : valence;
 }
@@ -264,7 +324,7 @@ void addMoves(vtkPolyData* data, PlacedConstraints& result)
 /// What of an input is not used.
 void tellUnused(vtkPolyData* data, const char* name, std::vector<std::string>& notices)
 {
-  if (data && data->GetNumberOfPoints() > 0 && data->GetNumberOfLines() == 0)
+  if (data && data->GetNumberOfPoints() > 0 && data->GetNumberOfLines() == 0 && !hasPlaces(data))
   {
     notices.push_back(std::string("the input ") + name +
       " has no lines and is not used: give it polylines, as Poly Line Source makes them");
@@ -288,7 +348,7 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   tellUnused(inputs.cycles, "Cycles", unused.notices);
   const bool any = hasLines(inputs.curves) || hasLines(inputs.strokes) ||
     hasLines(inputs.connections) || hasLines(inputs.cycles) || hasPoints(inputs.points) ||
-    hasPoints(inputs.mixed) || connects(inputs.surface);
+    hasPoints(inputs.mixed) || connects(inputs.surface) || hasPlaces(inputs.curves);
   if (!any || surface.input.polygonPoints.empty())
   {
     return unused;
@@ -300,6 +360,7 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   {
     addCurves(inputs.curves, inputs, placement);
   }
+  addPlaces(inputs.curves, placement);
   if (hasLines(inputs.strokes))
   {
     addStrokes(inputs, placement);
@@ -318,6 +379,7 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
     addCurves(inputs.mixed, inputs, placement);
     addPoints(inputs.mixed, valenceOfMixed(inputs.mixed, inputs.valence), placement);
     addConnections(inputs.mixed, "the constraints", placement);
+    addPlaces(inputs.mixed, placement);
   }
   placement.addTo(surface.input);
   PlacedConstraints result = placement.result();

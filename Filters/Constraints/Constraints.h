@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a user draws beside the surface: feature curves, guiding strokes, connections, cycles and points with valences.
-/// They are put on the surface, and what became of them is shown.
+/// What a user draws beside the surface: feature curves, guiding strokes, connections, cycles, and points with
+/// valences, with sizes, or whose features are to be none. They are put on the surface, and what became of them is
+/// shown.
 #pragma once
 
 #include "Convert/PolyData.h"
@@ -22,7 +23,8 @@ namespace quadrille
 struct ConstraintInputs
 {
   /// Polylines that become features. A line cell array ConstraintType may say 1: this one is a guiding stroke; 2: a
-  /// connection; 3: a cycle; 4: the irregular vertex nearest to its begin goes to its end.
+  /// connection; 3: a cycle; 4: the irregular vertex nearest to its begin goes to its end. Vertices of which it says 6:
+  /// the feature curves there are none; 7: edges there are SizeFactor times as long within GuidingRadius.
   vtkPolyData* curves = nullptr;
   /// Polylines whose direction the quads follow. A line cell array GuidingWeight goes before strokeWeight,
   /// GuidingRadius before strokeRadius.
@@ -57,6 +59,7 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
 /// Points: Direction (unit vectors along lines, else zero). Connections and cycles are 4 and 6, drawn as the chain of
 /// edges that is judged; 5 and 7 where they are not met, as they were given if there is no chain. Moves of irregular
 /// vertices are 8, the vertex at its new place, and 9, where they begin; 10 is the mirror plane, see addMirrorLines.
+/// Cleared features are 12, and 13 where they are not met; sizes 14 and 15.
 /// Lines that could not be put on the surface are their first point.
 /// mesh: what was made. isMet: of each, see judgeConstraints.
 vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint>& placed,

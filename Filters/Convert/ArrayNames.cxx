@@ -191,7 +191,8 @@ std::vector<ReadArray> lineArrays()
 {
   return { { arrays::kConstraintType, ArrayPlace::Cells, 1 },
     { arrays::kGuidingWeight, ArrayPlace::Cells, 1 },
-    { arrays::kGuidingRadius, ArrayPlace::Cells, 1 } };
+    { arrays::kGuidingRadius, ArrayPlace::Cells, 1 },
+    { arrays::kSizeFactor, ArrayPlace::Cells, 1 } };
 }
 
 std::vector<ReadArray> pointArrays()

@@ -43,6 +43,7 @@ constexpr const char* kPatchId = "PatchId";
 constexpr const char* kGuidingDirection = "GuidingDirection";
 constexpr const char* kGuidingWeight = "GuidingWeight";
 constexpr const char* kGuidingRadius = "GuidingRadius";
+constexpr const char* kSizeFactor = "SizeFactor";
 constexpr const char* kTargetValence = "TargetValence";
 constexpr const char* kConstraintType = "ConstraintType";
 constexpr const char* kConnectId = "ConnectId";

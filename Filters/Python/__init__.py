@@ -104,7 +104,7 @@ def info(quads):
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            feature_criterion="creases",
            guiding_direction=None, guiding_weight=None, target_valence=None, sizing=None, feature_edges=None,
-           patch_ids=None, curves=None, strokes=None, connections=None, cycles=None,
+           patch_ids=None, curves=None, strokes=None, connections=None, cycles=None, cleared=None, sizes=None,
            patch_array="PatchId", coarse_vertices=1000,
            threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
            memory_limit=0.0, time_limit=0.0, smallest_detail=1.0, small_details="automatic",
@@ -134,11 +134,14 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     patch_ids: #F whole numbers; edges between two values become edges of the quads.
     curves: a list of polylines (n by 3 points each) that become features, straight over the faces of the mesh;
         or a vtkPolyData with lines and, if some are no features, the cell array ConstraintType (0 feature, 1 stroke,
-        2 connection, 3 cycle).
+        2 connection, 3 cycle), and vertices of which it says 6 (cleared) or 7 (size: GuidingRadius, SizeFactor).
     strokes: a list of polylines along which quads should run.
     connections: a list of polylines from one irregular vertex to another, or to a feature or boundary, that a straight
         chain of edges is to join; the course says which way round others it goes.
     cycles: a list of closed polylines along which a chain of edges is to close.
+    cleared: n by 3: the feature curve nearest to each point, within half an edge length, is none; also one that
+        feature_edges or patch_ids ask for.
+    sizes: a list of (point, radius, factor): edges within the radius of the point are factor times as long.
     patch_array: name of a cell array of whole numbers of a vtkPolyData, whose borders become edges of the quads; None:
         not used.
     coarse_vertices: budget of the level where the layout is computed; 0: as many as the curvature needs.
@@ -223,8 +226,10 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     requests = {
         "guiding_direction": guiding_direction, "target_valence": target_valence, "sizing": sizing,
         "feature_edges": feature_edges, "patch_ids": patch_ids, "curves": curves, "strokes": strokes,
-        "connections": connections, "cycles": cycles, "symmetry": symmetry, "rotation": rotation}
-    lines = as_curves(curves=curves, strokes=strokes, connections=connections, cycles=cycles)
+        "connections": connections, "cycles": cycles, "cleared": cleared, "sizes": sizes, "symmetry": symmetry,
+        "rotation": rotation}
+    lines = as_curves(stroke_radius, curves=curves, strokes=strokes, connections=connections, cycles=cycles,
+                      cleared=cleared, sizes=sizes)
     made = backend.remesh(surface, options, lines, wrap=wrap, requests=requests, spread=spread, progress=progress)
     if not everything:
         return made

@@ -73,6 +73,8 @@ def remesh(
     strokes: Sequence[ArrayLike] | None = ...,
     connections: Sequence[ArrayLike] | None = ...,
     cycles: Sequence[ArrayLike] | None = ...,
+    cleared: ArrayLike | None = ...,
+    sizes: Sequence[tuple[ArrayLike, float, float]] | None = ...,
     patch_array: str | None = ...,
     coarse_vertices: int = ...,
     threads: int = ...,
@@ -146,6 +148,7 @@ class Session:
         self, points: ArrayLike | None = ..., weight: float = ..., radius: float = ..., *,
         faces: ArrayLike | None = ..., direction: Sequence[float] | None = ..., edit: int | None = ...) -> int: ...
     def add_feature(self, points: ArrayLike, *, edit: int | None = ...) -> int: ...
+    def clear_feature(self, point: Place, *, edit: int | None = ...) -> int: ...
     def set_valence(self, point: Place, valence: int, *, edit: int | None = ...) -> int: ...
     def set_size(
         self, point: Place | None = ..., factor: float = ..., radius: float = ..., *, faces: ArrayLike | None = ...,

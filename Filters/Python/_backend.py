@@ -7,7 +7,7 @@ wheel brings. Both have the same functions; all else of the package is common to
     surface_from(points, counts, corners), polydata_of(surface), is_polydata(mesh)
     point_count, face_count, points_of, polygons_of (offsets and corners), has_polygons_only, has_cell_array
     with_arrays(surface, point_data, cell_data)     a copy with further arrays; the surface stays as it is
-    lines_from(list of kind and points), lines_of(polydata)    curves, strokes, connections, cycles
+    lines_from(list of Line), lines_of(polydata)    curves, strokes, connections, cycles, cleared features, sizes
     arrays_of(mesh), fields_of(mesh)    points and faces; field data as a dict of lists
     remesh(surface, options, lines, wrap, requests, progress)
     read(path), write(mesh, path, options, progress)

@@ -100,20 +100,35 @@ def lines_from(lines):
 
 
 def lines_of(polydata):
-    """Pairs of a kind and points, of the lines of a vtkPolyData."""
+    """Those of a vtkPolyData: its lines, and vertices that clear features or ask for sizes. Lines without an array of
+    radii have none."""
+    from ._inputs import Line
     from ._vtk_data import arrays_of_cells, mesh_of
 
     mesh = mesh_of(polydata)
-    offsets, ids = arrays_of_cells(polydata.GetLines())
-    kinds = polydata.GetCellData().GetArray("ConstraintType")
+    array = polydata.GetCellData().GetArray
+    kinds, radii, factors = array("ConstraintType"), array("GuidingRadius"), array("SizeFactor")
     first = polydata.GetNumberOfVerts()
+
+    def value(values, cell, otherwise):
+        return values.GetComponent(cell, 0) if values else otherwise
+
     lines = []
+    offsets, ids = arrays_of_cells(polydata.GetLines())
     for i in range(len(offsets) - 1):
-        kind = int(kinds.GetComponent(first + i, 0)) if kinds else 0
+        kind = int(value(kinds, first + i, 0))
         if kind not in (0, 1, 2, 3):
             raise InvalidInput(f"curve {i} has ConstraintType {kind}, but only 0 (feature curve), 1 (guiding stroke), "
                                "2 (connection) and 3 (cycle) can be asked for here: correct the array")
-        lines.append((kind, mesh.points[ids[offsets[i]:offsets[i + 1]]]))
+        lines.append(Line(kind, mesh.points[ids[offsets[i]:offsets[i + 1]]], value(radii, first + i, None)))
+    offsets, ids = arrays_of_cells(polydata.GetVerts())
+    for i in range(first):
+        kind = int(value(kinds, i, 0))
+        if kind == 7 and not factors:
+            raise InvalidInput(f"vertex {i} asks for a size, but the cells have no array SizeFactor: add it")
+        if kind in (6, 7):
+            lines += [Line(kind, mesh.points[[k]], value(radii, i, 0.0), value(factors, i, 1.0))
+                      for k in ids[offsets[i]:offsets[i + 1]]]
     return lines
 
 
@@ -159,7 +174,7 @@ def _settings_text(options):
 
 
 def _how(options):
-    how = {name: options[name] for name in ("preview", "everything", "time_limit", "stroke_radius")}
+    how = {name: options[name] for name in ("preview", "everything", "time_limit")}
     if options["symmetry"] is not None:
         how["symmetry"] = True
         how["plane_curve"] = NAMES["plane_curve"].index(options["plane_curve"])
@@ -246,8 +261,10 @@ def remesh(surface, options, lines, *, wrap, requests, spread, progress):
         raise missing("cell_data='area'")
     if "CadShape" in surface.field_data:  # whose features are known
         options = {**options, "feature_angle": None}
+    lines = [line if line.radius is not None else line._replace(radius=options["stroke_radius"])
+             for line in lines or []]
     made = _native.remesh(_surface_dict(surface, options["patch_array"], options["guide"]), _settings_text(options),
-                          _how(options), list(lines or []), progress)
+                          _how(options), lines, progress)
     quads = _as_given(surface, _quads_mesh(surface, made))
     if not options["everything"]:
         return quads

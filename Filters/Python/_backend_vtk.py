@@ -94,11 +94,17 @@ def lines_of(polydata):
 
 
 def lines_from(lines):
-    counts = [len(points) for _, points in lines]
-    data = surface_from(numpy.concatenate([points for _, points in lines]), numpy.zeros(0, numpy.int64),
+    lines = sorted(lines, key=lambda line: len(line.points) > 1)  # vertices come before lines in the order of cells
+    data = surface_from(numpy.concatenate([line.points for line in lines]), numpy.zeros(0, numpy.int64),
                         numpy.zeros(0, numpy.int64))
-    data.SetLines(cells_of(numpy.concatenate(([0], numpy.cumsum(counts))), numpy.arange(sum(counts))))
-    add_array(data.GetCellData(), "ConstraintType", numpy.array([kind for kind, _ in lines], numpy.int32))
+    single = sum(len(line.points) == 1 for line in lines)
+    ends = numpy.cumsum([0] + [len(line.points) for line in lines])
+    if single:
+        data.SetVerts(cells_of(ends[:single + 1], numpy.arange(single)))
+    data.SetLines(cells_of(ends[single:] - single, numpy.arange(single, ends[-1])))
+    add_array(data.GetCellData(), "ConstraintType", numpy.array([line.kind for line in lines], numpy.int32))
+    add_array(data.GetCellData(), "GuidingRadius", numpy.array([line.radius for line in lines], float))
+    add_array(data.GetCellData(), "SizeFactor", numpy.array([line.factor for line in lines], float))
     return data
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What Python has as the surface, and what is asked of it, as the backend takes it."""
 import os
+import typing
 
 import numpy
 
@@ -153,10 +154,26 @@ def _polylines(name, lines):
 
 
 #: Values of the array ConstraintType.
-_TYPES = {"curves": 0, "strokes": 1, "connections": 2, "cycles": 3}
+_TYPES = {"curves": 0, "strokes": 1, "connections": 2, "cycles": 3, "cleared": 6, "sizes": 7}
 
 
-def as_curves(**given):
+class Line(typing.NamedTuple):
+    """What is drawn: a polyline, or one point."""
+    kind: int            # see _TYPES
+    points: numpy.ndarray
+    radius: float = 0.0  # of strokes and sizes
+    factor: float = 1.0  # of sizes
+
+
+def _sizes(given):
+    for i, size in enumerate(given):
+        if len(size) != 3:
+            raise InvalidInput(f"sizes[{i}] has {len(size)} values; a size is a point, a radius and a factor")
+        point, radius, factor = size
+        yield Line(_TYPES["sizes"], as_points([point], f"sizes[{i}]"), float(radius), float(factor))
+
+
+def as_curves(stroke_radius=0.0, **given):
     """The lines of all as the backend takes them, or None. curves may be a vtkPolyData, with ConstraintType."""
     given = {name: lines for name, lines in given.items() if lines is not None}
     ready = given.get("curves")
@@ -166,5 +183,9 @@ def as_curves(**given):
             raise InvalidInput(f"beside a vtkPolyData of curves there is no room for {others}: put them into it, with "
                                "these numbers in its cell array ConstraintType")
         return backend.lines_of(ready)
-    lines = [(_TYPES[name], line) for name in given for line in _polylines(name, given[name])]
+    sizes = list(_sizes(given.pop("sizes", ())))
+    cleared = as_points(given.pop("cleared", numpy.zeros((0, 3))), "cleared")
+    lines = [Line(_TYPES[name], line, stroke_radius) for name in given for line in _polylines(name, given[name])]
+    lines += [Line(_TYPES["cleared"], point.reshape(1, 3)) for point in cleared]
+    lines += sizes
     return backend.lines_from(lines) if lines else None

@@ -164,6 +164,10 @@ class Session:
         """A polyline becomes edges of the quads, straight over the faces of the mesh."""
         return self._add({"kind": "feature", "points": self._line("points", points)}, edit)
 
+    def clear_feature(self, point, *, edit=None):
+        """The feature curve nearest to a point, within half an edge length, is none."""
+        return self._add({"kind": "cleared feature", "point": self._place("point", point)}, edit)
+
     def set_valence(self, point, valence, *, edit=None):
         """2 to 8; on a boundary one more than the edges there."""
         return self._add({"kind": "valence", "point": self._place("point", point),

@@ -36,6 +36,7 @@ constexpr const char* kFeaturePoints = "RecipeFeaturePoints";
 /// A place, and its valence; or its radius, factor and order.
 constexpr const char* kValencePlaces = "RecipeValencePlaces";
 constexpr const char* kSizePlaces = "RecipeSizePlaces";
+constexpr const char* kClearedPlaces = "RecipeClearedPlaces";
 
 template <class Array>
 Array* require(vtkDataObject* data, const char* name)
@@ -91,7 +92,7 @@ void add(std::vector<double>& values, const Vector3& p)
 
 void writeDrawn(const DrawnRequests& drawn, vtkDataObject* data)
 {
-  std::vector<double> sizes, points, valences, places;
+  std::vector<double> sizes, points, valences, places, cleared;
   for (const FeatureRequest& feature : drawn.features)
   {
     sizes.push_back(static_cast<double>(feature.points.size()));
@@ -110,10 +111,15 @@ void writeDrawn(const DrawnRequests& drawn, vtkDataObject* data)
     add(places, size.place);
     places.insert(places.end(), { size.radius, size.factor, static_cast<double>(size.order) });
   }
+  for (const Vector3& place : drawn.cleared)
+  {
+    add(cleared, place);
+  }
   addRows(data, kFeatureSizes, 1, sizes);
   addRows(data, kFeaturePoints, 3, points);
   addRows(data, kValencePlaces, 4, valences);
   addRows(data, kSizePlaces, 6, places);
+  addRows(data, kClearedPlaces, 3, cleared);
 }
 
 DrawnRequests readDrawn(vtkDataObject* data)
@@ -151,6 +157,11 @@ DrawnRequests readDrawn(vtkDataObject* data)
   {
     drawn.sizes.push_back({ { places[i], places[i + 1], places[i + 2] }, places[i + 3],
       places[i + 4], static_cast<int>(places[i + 5]) });
+  }
+  const std::vector<double> cleared = rowsOf(data, kClearedPlaces, 3);
+  for (std::size_t i = 0; i < cleared.size(); i += 3)
+  {
+    drawn.cleared.emplace_back(cleared[i], cleared[i + 1], cleared[i + 2]);
   }
   return drawn;
 }

@@ -117,6 +117,10 @@ std::uint64_t drawnHash(DrawnRequests drawn)
   {
     key.add(size.factor).add(static_cast<std::uint64_t>(size.order));
   }
+  if (!drawn.cleared.empty())
+  {
+    key.add(std::uint64_t{ drawn.cleared.size() });
+  }
   drawn.visit([&](const Vector3& p) { key.add(p[0]).add(p[1]).add(p[2]); },
     [&](double length) { key.add(length); });
   return key.key();

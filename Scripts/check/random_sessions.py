@@ -306,7 +306,11 @@ class RandomSession:
         self.entered()
 
     def feature(self):
-        self.session.add_feature(self.line(), edit=self.editable("feature"))
+        if self.random.random() < 0.3:
+            self.session.clear_feature(self.place() if self.random.random() < 0.5 else self.irregular(),
+                                       edit=self.editable("cleared feature"))
+        else:
+            self.session.add_feature(self.line(), edit=self.editable("feature"))
         self.entered()
 
     def sizes(self):

@@ -359,10 +359,19 @@ class OneWayForAllFronts(unittest.TestCase):
         run.AddConstraintsConnection(source.GetOutputPort())
         run.Update()
         self.assertTrue(same(quadrille.to_arrays(run.GetOutput()), expected))
+        word, row = made.update()["constraints"][0], run.GetConstraintTable()
+        self.assertEqual(row.GetValueByName(0, "Met").ToInt(), int(word["met"]))
+        if kind in ("CLEARED_FEATURE", "SIZE"):
+            self.assertAlmostEqual(row.GetValueByName(0, "Deviation").ToDouble(), word["deviation"], 6)
         lines = {"FEATURE_CURVE": "curves", "GUIDING_STROKE": "strokes", "CONNECTION": "connections",
-                 "CYCLE": "cycles"}
+                 "CYCLE": "cycles", "CLEARED_FEATURE": "cleared"}
+        if kind == "SIZE":
+            lines[kind] = "sizes"
         if kind in lines:
-            more = {lines[kind]: [points]}
+            more = {lines[kind]: [points] if len(points) > 1 else points}
+            if kind == "SIZE":
+                more = {"sizes": [(points[0], radius, 0.5)]}
+                radius = 0
             if radius:
                 more["stroke_radius"] = radius
             self.assertTrue(same(quadrille.to_arrays(quadrille.remesh(mesh, quads=quads, threads=2, **more)), expected))
@@ -387,6 +396,10 @@ class OneWayForAllFronts(unittest.TestCase):
         self.on_a_surface(mesh, 2400)
         ring = [(0.5, 0.5, 1), (1, 0.5, 0.5), (0.5, 0.5, 0), (0, 0.5, 0.5)]
         self.check(mesh, 2400, lambda made: made.add_cycle(ring), "cycle", "CYCLE", ring)
+        self.check(mesh, 2400, lambda made: made.clear_feature((0.5, 0, 1)), "cleared feature", "CLEARED_FEATURE",
+                   [(0.5, 0, 1)])
+        self.check(mesh, 2400, lambda made: made.set_size((0.5, 0.5, 1), 0.5, radius=0.2), "size", "SIZE",
+                   [(0.5, 0.5, 1)], radius=0.2)
 
     def test_on_a_part(self):
         mesh = part()
@@ -395,6 +408,18 @@ class OneWayForAllFronts(unittest.TestCase):
         origin = irregular.point[numpy.argmax(irregular.point[:, 2])]
         target = 0.9 * origin + (0, 0, 0.1 * origin[2])
         self.check(mesh, 3000, lambda made: made.move_irregular(origin, target), "irregular", "MOVE", [origin, target])
+
+
+class Failures(unittest.TestCase):
+    def test_a_size_without_a_map_is_left_out(self):
+        hexadecimal = float.fromhex
+        place = [hexadecimal("-0x1.a4826af9da194p+5"), hexadecimal("0x1.92512b9b7f447p+5"),
+                 hexadecimal("0x1.f7bcc5beddb3ap+2")]
+        made = quadrille.Session(part(), quads=5000, threads=1)
+        made.set_size(place, hexadecimal("0x1.123e2b070a7bdp-1"), radius=hexadecimal("0x1.4b039ca80dc56p+3"))
+        word = made.update()["constraints"][0]
+        self.assertGreater(len(made.quads[1]), 4000)
+        self.assertTrue(word["met"] or "no valid map" in word["reason"], word)
 
 
 class Topology(unittest.TestCase):

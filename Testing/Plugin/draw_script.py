@@ -14,7 +14,7 @@ from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkCutter, vtkStripper
 
 import places_script  # whose questions are answered, too
-from places_script import is_clear, output, quads, seen_at, view
+from places_script import is_clear, output, pixel_of, quads, seen_at, view
 
 
 COVERED = 280  # pixels at the lower end of the view, where the window Output Messages may lie
@@ -113,6 +113,46 @@ def valence_at(place):
     """Of the point of the quads nearest to a place."""
     points, count = valences()
     return int(count[((points - place) ** 2).sum(axis=1).argmin()])
+
+
+def features():
+    """The ends of the edges of the quads on features, #E by 2 by 3."""
+    data = output(2)
+    if data.GetNumberOfLines() == 0:
+        return numpy.zeros((0, 2, 3))
+    ends = vtk_to_numpy(data.GetLines().GetConnectivityArray()).reshape(-1, 2)
+    inner = vtk_to_numpy(data.GetCellData().GetArray("Boundary")) == 0
+    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)[ends[inner]]
+
+
+def off_features(place):
+    """The distance of a place from the features of the quads."""
+    return min((float(from_polyline([place], edge)[0]) for edge in features()), default=math.inf)
+
+
+def feature_places(seed, near):
+    """Pixels that clearly see a feature, with the place, in a random order; one at each edge of the quads."""
+    found = []
+    for a, b in features():
+        place = (a + b) / 2
+        pixel = tuple(round(c) for c in pixel_of(place))
+        seen = seen_at(pixel) if COVERED < pixel[1] < view.ViewSize[1] and 0 < pixel[0] < view.ViewSize[0] else None
+        if seen is not None and math.dist(seen, place) < near / 2 and is_clear(pixel, seen, near):
+            found.append((pixel, tuple(place)))
+    random.Random(seed).shuffle(found)
+    return found
+
+
+def size_within(place, radius):
+    """The median by area of the edge lengths of quads with their centre within the radius; how many there are."""
+    points, corners = quad_arrays()
+    inside = numpy.linalg.norm(points[corners].mean(axis=1) - place, axis=1) <= radius
+    lengths = numpy.linalg.norm(points[corners] - points[numpy.roll(corners, -1, axis=1)], axis=2).mean(axis=1)[inside]
+    if not len(lengths):
+        return math.nan, 0
+    lengths.sort()
+    share = numpy.cumsum(lengths ** 2) / (lengths ** 2).sum()
+    return float(lengths[numpy.searchsorted(share, 0.5)]), int(inside.sum())
 
 
 def clear_path(start, angle, length, bend, near, step=6):

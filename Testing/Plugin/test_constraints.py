@@ -80,7 +80,8 @@ plain = remeshed(ComputeMappedSurface=1)
 
 # Each source makes one cell with all arrays; one that is switched off makes nothing.
 line = [-0.5, -0.33, 0.34, 0.4, -0.47, 0.0]
-kinds = {"QuadStroke": 1, "QuadConnection": 2, "QuadLoop": 3, "QuadFeatureCurve": 0, "QuadValence": 0, "QuadMove": 4}
+kinds = {"QuadStroke": 1, "QuadConnection": 2, "QuadLoop": 3, "QuadFeatureCurve": 0, "QuadValence": 0, "QuadMove": 4,
+         "QuadClearedFeature": 6, "QuadSize": 7}
 for name, kind in kinds.items():
     source = globals()[name]()
     source.UpdatePipeline()
@@ -89,7 +90,7 @@ for name, kind in kinds.items():
     check(data.GetCellData().GetArray("ConstraintType").GetTuple1(0) == kind, f"{name} makes another kind")
     asked = data.GetPointData().GetArray("TargetValence").GetRange()
     check(asked == ((3, 3) if name == "QuadValence" else (0, 0)), f"{name} asks for the valences {asked}")
-    check(data.GetCellData().HasArray("GuidingWeight") and data.GetCellData().HasArray("GuidingRadius"),
+    check(all(data.GetCellData().HasArray(a) for a in ("GuidingWeight", "GuidingRadius", "SizeFactor")),
           f"{name} lacks arrays")
     source.Enabled = 0
     source.UpdatePipeline()

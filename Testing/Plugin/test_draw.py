@@ -31,7 +31,7 @@ MET_OFF = 0.3    # edge lengths, as the table has it for feature curves
 DOUBT = 2.5      # degrees in which two ways to measure the mean may differ
 WIDTH = count_actions.WIDTH
 COVERED = 280  # pixels at the lower end of the view, where the window Output Messages may lie
-TOOLS = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature")  # in their order
+TOOLS = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature", "Size")  # in their order
 
 
 class Session(test_places.Session):
@@ -144,6 +144,27 @@ def feature(session, chance):
     return Outcome(off, met, is_true, f"edges {away:.2f} off; {reason}")
 
 
+def clear(session, chance):
+    """A click on a feature curve."""
+    for _ in range(20):
+        found = session.value(f"feature_places({chance.randrange(10 ** 6)}, {NEAR * session.edge})")
+        if found:
+            break
+        test_places.random_view(session, chance)
+    else:
+        raise SystemExit("FAILED: hardly any feature is seen")
+    pixel, place = found[0]
+    session.press(pixel)
+    drawn = session.drawn()
+    if not drawn or drawn[0] != "QuadClearedFeature":
+        return NOTHING
+    off = math.dist(drawn[1][0], place) / session.edge
+    away = session.value(f"off_features({tuple(drawn[1][0])!r})") / session.edge
+    met, reason = session.word("cleared feature") or (None, "no row")
+    return Outcome(off, met, met is not None and (away > MET_OFF) == (met == 1),
+                   f"the nearest feature is {away:.2f} off; {reason}")
+
+
 def valence(session, chance):
     pixel, place = session.places(chance, 1)[0]
     wanted = chance.choice((3, 5))
@@ -158,6 +179,29 @@ def valence(session, chance):
     met, reason = session.word("valence") or (None, "no row")
     is_true = drawn[2] == wanted and met is not None and (nearest <= ALLOWED if met else reason != "" or nearest > 0.2)
     return Outcome(off, met, is_true, f"{wanted} is {nearest:.2f} off; {reason}")
+
+
+def size(session, chance):
+    """From a place to another one between two and six edge lengths away, with the factor that the tool bar has."""
+    for _ in range(40):
+        centre, *others = session.places(chance, 8)
+        near = [p for p in others if 2 * session.edge < math.dist(p[1], centre[1]) < 6 * session.edge]
+        if near:
+            break
+    else:
+        raise SystemExit("FAILED: hardly any two places near each other are seen")
+    pixel, place = near[0]
+    session.drag([centre[0], tuple((a + b) / 2 for a, b in zip(centre[0], pixel)), pixel])
+    drawn = session.drawn()
+    if not drawn:
+        return NOTHING
+    radius, factor = session.value("[list(quads().Constraints)[-1].GetPropertyValue(n) for n in ('Radius', 'Factor')]")
+    off = max(math.dist(drawn[1][0], centre[1]), abs(radius - math.dist(place, centre[1]))) / session.edge
+    length, count = session.value(f"size_within({tuple(centre[1])!r}, {radius})")
+    met, reason = session.word("size") or (None, "no row")
+    share = length / session.edge / factor
+    is_true = met is not None and factor == 0.5 and (share < 1.45 if met else share > 1.1 and reason != "")
+    return Outcome(off, met, is_true, f"{count} quads {share:.2f} times as long as asked for; {reason}")
 
 
 def visible_balls(session, chance, least):
@@ -215,13 +259,16 @@ def loop(session, chance):
     return Outcome(off, met, met is not None and (met == 1 or reason != ""), reason)
 
 
-ACTIONS = {"Stroke": stroke, "Valence": valence, "Move": move, "Connect": connect, "Loop": loop, "Feature": feature}
+ACTIONS = {"Stroke": stroke, "Valence": valence, "Move": move, "Connect": connect, "Loop": loop, "Feature": feature,
+           "Clear": clear, "Size": size}
+#: Of what has no tool of its own.
+BUTTONS = {"Clear": "Feature"}
 
 
 def try_tool(session, name, chance, count):
     """Draws so many times with a tool; how many of them are bad."""
     session.ask("clear()")
-    session.take(name)
+    session.take(BUTTONS.get(name, name))
     outcomes = []
     for number in range(count):
         session.ask("clear()")

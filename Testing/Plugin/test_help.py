@@ -51,7 +51,7 @@ def look(group, name):
 for name in FILTERS:
     look("filters", name)
 for name in ("QuadrillePLYReader", "QuadrilleOFFReader", "QuadStroke", "QuadValence", "QuadMove", "QuadConnection",
-             "QuadLoop", "QuadFeatureCurve"):
+             "QuadLoop", "QuadFeatureCurve", "QuadClearedFeature", "QuadSize"):
     look("sources", name)
 for name in ("QuadInpWriter", "QuadMshWriter", "QuadMeditWriter", "QuadExodusWriter"):
     look("writers", name)

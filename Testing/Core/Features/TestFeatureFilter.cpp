@@ -256,6 +256,61 @@ TEST(FeatureFilter, NearAPlaceOnlyDetectedFeaturesGo)
   EXPECT_THROW(featuresNear(mesh, {}, 0, isDetectedFeature), InvalidInput);
 }
 
+TEST(ClearFeatures, TakesTheCurveNearestToAPlaceAndNoOther)
+{
+  Mesh mesh = test::markFeatures(test::unitCube(6), 0.5);
+  const Vector3 onEdge(0.5, 0, 1);
+  const std::vector<ClearedFeature> cleared =
+    clearFeatures(mesh, { onEdge + Vector3(0, 0.05, 0), { 0.5, 0.5, 1 } }, 0.1);
+  ASSERT_EQ(cleared.size(), 2u);
+  EXPECT_NEAR(cleared[0].length, 1, 1e-12);
+  EXPECT_NEAR(cleared[0].distance, 0.05, 1e-12);
+  EXPECT_NEAR((cleared[0].nearest - onEdge).norm(), 0, 1e-12);
+  EXPECT_EQ(cleared[1].length, 0);
+  EXPECT_NEAR(cleared[1].distance, 0.5, 1e-12);
+  EXPECT_EQ(featureEdges(mesh), 66u);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3 middle = 0.5 * (mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]);
+    EXPECT_FALSE(mesh.isFeature(h) && middle.y() == 0 && middle.z() == 1);
+  }
+}
+
+TEST(ClearFeatures, TakesWholeLoops)
+{
+  Mesh mesh = test::openCylinder(24, 6);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const double z = mesh.position[mesh.origin[h]].z();
+    if (!mesh.isBoundary(h) && std::abs(z - 1) < 1e-9 &&
+      std::abs(mesh.position[mesh.target(h)].z() - 1) < 1e-9)
+    {
+      mark(mesh, h, kDetected);
+    }
+  }
+  ASSERT_EQ(featureEdges(mesh), 24u);
+  EXPECT_NEAR(clearFeatures(mesh, { { 1, 0, 1 } }, 0.5).front().length, 2 * 3.14159265, 0.05);
+  EXPECT_EQ(featureEdges(mesh), 0u);
+}
+
+TEST(ClearFeatures, TakesWhatWasAskedFor)
+{
+  Mesh mesh = test::gridPlane(12, 6);
+  markRow(mesh, 2, 2, 9, kDetected | kRequestedFeature | kYieldingFeature);
+  EXPECT_EQ(clearFeatures(mesh, { { 5, 2, 0 } }, 0.5).front().length, 7);
+  EXPECT_EQ(featureEdges(mesh), 0u);
+  EXPECT_FALSE(hasDetectedFeature(mesh));
+  const ClearedFeature none = clearFeatures(mesh, { { 5, 2, 0 } }, 0.5).front();
+  EXPECT_EQ(none.length, 0);
+  EXPECT_TRUE(std::isinf(none.distance));
+}
+
+TEST(ClearFeatures, LeavesTheBoundary)
+{
+  Mesh mesh = test::gridPlane(6, 6);
+  EXPECT_EQ(clearFeatures(mesh, { { 3, 0, 0 } }, 1).front().length, 0);
+}
+
 TEST(FeatureFilter, NothingIsBelowZero)
 {
   Mesh mesh = test::gridPlane(20, 6);

@@ -3,6 +3,7 @@
 #include "Pieces/ThinnedSurface.h"
 
 #include "Base/Error.h"
+#include "Evaluation/ConstraintMeasures.h"
 #include "Evaluation/ConstraintWords.h"
 #include "MeshInput.h"
 #include "Pieces/RemeshInPieces.h"
@@ -197,6 +198,8 @@ struct AskedTorus
   std::vector<bool> met(const RemeshResult& made)
   {
     asked.curves = made.curves;
+    asked.edgeLength =
+      lengthOfSizeOne(made.targetEdgeLength, made.targetQuads, made.quads.quads.size());
     std::vector<bool> met;
     for (const ConstraintWord& word : judgeConstraints(asked, made.quads, {}))
     {
@@ -228,9 +231,24 @@ TEST(ThinnedSurface, DrawnFeaturesAreFollowed)
     [&](ConstraintPlacement& placement)
     {
       placement.addFeature({ 0, torus.ring(0.7, 0, 1.5) });
-      placement.addSize(AskedTorus::at(5, 0), 0.5, 0.7);
+      placement.addSize(1, AskedTorus::at(5, 0), 0.5, 0.7);
     });
-  expectSameWords(torus, 300, 1);
+  expectSameWords(torus, 300, 2);
+}
+
+TEST(ThinnedSurface, ClearedFeaturesAreNone)
+{
+  SurfaceInput input = toInput(unitCube(40));
+  input.drawn.cleared = { { 0.5, 0, 1 } };
+  const PiecesResult made = remeshThinned(input, askForQuads(600));
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  const QuadMesh& quads = made.remeshed.quads;
+  double length = 0;
+  for (const QuadLine& line : quads.lines)
+  {
+    length += (quads.points[line.a] - quads.points[line.b]).norm();
+  }
+  EXPECT_NEAR(length, 11, 0.01);
 }
 
 TEST(ThinnedSurface, ValencesStay)

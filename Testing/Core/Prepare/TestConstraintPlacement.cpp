@@ -37,13 +37,17 @@ protected:
 TEST_F(PlacementOnACube, PointsStayWhereTheyAreGiven)
 {
   placement_.addValence(0, { 0.5, 0.4, 1.2 }, 3);
-  EXPECT_EQ(placement_.addSize({ 0.2, 0.3, 1 }, 0.1, 0.5, 7), Vector3(0.2, 0.3, 1));
+  placement_.addSize(0, { 0.25, 0.375, 1.125 }, 0.1, 0.5, 7);
   const DrawnRequests& drawn = placement_.requests();
   ASSERT_EQ(drawn.valences.size(), 1U);
   EXPECT_EQ(drawn.valences[0], (ValencePlace{ { 0.5, 0.4, 1 }, 3 }));
   ASSERT_EQ(drawn.sizes.size(), 1U);
-  EXPECT_EQ(drawn.sizes[0], (SizeRequest{ { 0.2, 0.3, 1 }, 0.1, 0.5, 7 }));
+  EXPECT_EQ(drawn.sizes[0], (SizeRequest{ { 0.25, 0.375, 1 }, 0.1, 0.5, 7 }));
   EXPECT_NEAR(placement_.result().placed[0].distance, 0.2, 1e-12);
+  EXPECT_EQ(placement_.result().placed[1].distance, 0.125);
+  EXPECT_EQ(placement_.result().placed[1].factor, 0.5);
+  EXPECT_THROW(placement_.addSize(1, { 0.2, 0.3, 1 }, 0.1, 0), InvalidInput);
+  EXPECT_THROW(placement_.addSize(1, { 0.2, 0.3, 1 }, -1, 0.5), InvalidInput);
 }
 
 TEST_F(PlacementOnACube, ALineRunsStraightOverAnEdge)

@@ -180,7 +180,7 @@ private:
         add(ValenceAt{ place(), static_cast<int>(2 + upTo(7)) });
         break;
       case 3:
-        add(FeatureLine{ line(2 + upTo(2)) });
+        upTo(3) == 0 ? add(ClearedAt{ place() }) : add(FeatureLine{ line(2 + upTo(2)) });
         break;
       case 4:
         add(SizeAt{ place(), between(0, 0.3) * size_, between(0.4, 2.5) });

@@ -203,6 +203,72 @@ TEST(Session, FeaturesBecomeEdges)
   EXPECT_GE(onLine, 5u);
 }
 
+/// Feature edges of the quads on the edge of the unit cube where y = 0 and z = 1, and all of them.
+std::pair<std::size_t, std::size_t> featuresOfCube(const QuadMesh& quads)
+{
+  std::size_t there = 0;
+  for (const QuadLine& line : quads.lines)
+  {
+    const Vector3 middle = 0.5 * (quads.points[line.a] + quads.points[line.b]);
+    there += std::abs(middle.y()) < 0.01 && std::abs(middle.z() - 1) < 0.01 ? 1 : 0;
+  }
+  return { there, quads.lines.size() };
+}
+
+TEST(Session, AClearedFeatureIsNone)
+{
+  RemeshOptions options = sessionOptions(600);
+  options.featureAngle = 0.7;
+  Session session(toInput(unitCube(8)), options);
+  session.update();
+  const auto [before, all] = featuresOfCube(session.result()->quads);
+  ASSERT_GT(before, 5u);
+  session.add(ClearedAt{ { 0.5, 0, 1 } });
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_TRUE(report.constraints[0].isMet) << report.constraints[0].reason;
+  EXPECT_EQ(report.constraints[0].text, "cleared feature 1");
+  const auto [after, rest] = featuresOfCube(session.result()->quads);
+  EXPECT_EQ(after, 0u);
+  EXPECT_GT(rest, all / 2);
+  const QuadMesh cleared = session.result()->quads;
+  session.undo();
+  session.update();
+  EXPECT_EQ(featuresOfCube(session.result()->quads).first, before);
+  // Another run than the one that went on from the levels of the first gives the same.
+  Session fresh(toInput(unitCube(8)), options);
+  fresh.add(ClearedAt{ { 0.5, 0, 1 } });
+  fresh.update();
+  EXPECT_TRUE(areSame(fresh.result()->quads, cleared));
+}
+
+TEST(Session, WhatIsDrawnOverAClearedFeatureIsOne)
+{
+  RemeshOptions options = sessionOptions(600);
+  options.featureAngle = 0.7;
+  Session session(toInput(unitCube(8)), options);
+  session.add(ClearedAt{ { 0.5, 0, 1 } });
+  session.add(FeatureLine{ { { 0, 0, 1 }, { 1, 0, 1 } } });
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_FALSE(report.constraints[0].isMet);
+  EXPECT_NE(report.constraints[0].reason.find("drawn there"), std::string::npos);
+  EXPECT_TRUE(report.constraints[1].isMet) << report.constraints[1].reason;
+}
+
+TEST(Session, NothingIsClearedFarFromFeatures)
+{
+  RemeshOptions options = sessionOptions(600);
+  options.featureAngle = 0.7;
+  Session session(toInput(unitCube(8)), options);
+  session.add(ClearedAt{ { 0.5, 0.5, 1 } });
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_TRUE(std::any_of(report.notices.begin(), report.notices.end(),
+    [](const std::string& notice)
+    { return notice.find("no feature was cleared at (0.5, 0.5, 1)") != std::string::npos; }));
+}
+
 TEST(Session, ConnectionsAreChainsOfEdges)
 {
   Session session(dents(), sessionOptions(600));

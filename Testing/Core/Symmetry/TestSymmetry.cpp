@@ -97,6 +97,23 @@ TEST(Symmetry, BoxKeepsItsFeatures)
   }
 }
 
+TEST(Symmetry, ClearedFeaturesOfTheOtherSideAreMirrored)
+{
+  // One edge in front of the plane, one behind it, and one that crosses it.
+  SurfaceInput input = toInput(unitCube(6));
+  input.drawn.cleared = { { 0.5, 1, 1 }, { 0.5, 0, 0 }, { 1, 0.7, 1 } };
+  const SymmetricResult made =
+    remeshSymmetric(input, aboutQuads(300), about(Vector3(0.5, 0.5, 0.5), Vector3(0, 1, 0)));
+  expectSymmetric(made, input, 2, true);
+  const QuadMesh& quads = made.remeshed.quads;
+  double length = 0;
+  for (const QuadLine& line : quads.lines)
+  {
+    length += (quads.points[line.a] - quads.points[line.b]).norm();
+  }
+  EXPECT_NEAR(length, 7, 0.01); // with the images of the first two
+}
+
 TEST(Symmetry, ARidgeInThePlaneStaysAFeature)
 {
   // Two of the box's edges lie in the plane through opposite edges.
