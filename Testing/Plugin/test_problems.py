@@ -90,6 +90,8 @@ def press_under_verdict(session, row):
     time.sleep(1)
     for _ in range(2):
         session.ask("pass", seconds=120)
+    session.wait_until("is_made()", seconds=120)
+    time.sleep(1)  # the panel tells of it then
 
 
 def check_buttons(session):
