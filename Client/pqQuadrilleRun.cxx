@@ -185,6 +185,10 @@ void pqQuadrilleRun::end(End how)
   this->Timer.stop();
   qApp->removeEventFilter(this);
   this->Filter = nullptr;
+  if (this->IsTold)
+  {
+    quadrille::say({}); // the progress; what follows may tell the outcome
+  }
   for (const Then& then : std::exchange(this->Waiting, {}))
   {
     then(how);

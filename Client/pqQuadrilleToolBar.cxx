@@ -99,7 +99,8 @@ QString whyNoDrawing(pqPipelineSource* selected)
   {
     auto* model = pqApplicationCore::instance()->getServerManagerModel();
     auto* source = model->findItem<pqPipelineSource*>(filter);
-    return source && source->modifiedState() == pqProxy::UNINITIALIZED
+    // What a redo has brought back is uninitialized for ParaView, though it is shown.
+    return source && source->modifiedState() == pqProxy::UNINITIALIZED && source->getViews().empty()
       ? source->getSMName() + " is not applied yet."
       : QString();
   }
