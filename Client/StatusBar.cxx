@@ -18,7 +18,6 @@ constexpr int kMessageTime = 30000; // milliseconds
 
 void say(const QString& text)
 {
-
   if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
   {
     window->statusBar()->showMessage(text, kMessageTime);
