@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every property of Quad Remesh but threads and limits is among its settings: else a change of it would get an earlier
+"""Every property of Quad Remesh but threads, limits and where it runs is among its settings: else a change of it would get an earlier
 result."""
 import sys
 
 import quadrille
 
-NO_SETTINGS = {"NumberOfThreads", "TimeLimit", "MemoryLimit", "MaximumNumberOfQuads", "KeepLevels"}
+NO_SETTINGS = {"NumberOfThreads", "TimeLimit", "MemoryLimit", "MaximumNumberOfQuads", "KeepLevels", "InBackground"}
 
 
 def properties(kind):
