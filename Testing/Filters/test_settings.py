@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every property of Quad Remesh but threads, limits and where it runs is among its settings: else a change of it would get an earlier
-result."""
+"""Every property of Quad Remesh but threads, limits and where it runs is among its settings: else a change of it would
+get an earlier result."""
 import sys
 
 import quadrille
