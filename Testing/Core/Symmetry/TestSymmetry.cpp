@@ -75,6 +75,16 @@ TEST(Symmetry, TorusAboutBothKindsOfPlanes)
   }
 }
 
+double lengthOfLines(const QuadMesh& quads)
+{
+  double length = 0;
+  for (const QuadLine& line : quads.lines)
+  {
+    length += (quads.points[line.a] - quads.points[line.b]).norm();
+  }
+  return length;
+}
+
 TEST(Symmetry, BoxKeepsItsFeatures)
 {
   const SurfaceInput input = toInput(unitCube(6));
@@ -82,13 +92,9 @@ TEST(Symmetry, BoxKeepsItsFeatures)
     remeshSymmetric(input, aboutQuads(300), about(Vector3(0.5, 0.5, 0.5), Vector3(0, 1, 0)));
   expectSymmetric(made, input, 2, true);
   const QuadMesh& quads = made.remeshed.quads;
-  double length = 0;
-  for (const QuadLine& line : quads.lines)
-  {
-    EXPECT_FALSE(line.boundary);
-    length += (quads.points[line.a] - quads.points[line.b]).norm();
-  }
-  EXPECT_NEAR(length, 12, 1e-9); // the edges of the box
+  EXPECT_TRUE(std::none_of(
+    quads.lines.begin(), quads.lines.end(), [](const QuadLine& line) { return line.boundary; }));
+  EXPECT_NEAR(lengthOfLines(quads), 12, 1e-9); // the edges of the box
   for (const Vector3& p : input.points)
   {
     const bool isCorner = ((p - Vector3::Constant(0.5)).cwiseAbs().array() > 0.49).all();
@@ -105,13 +111,7 @@ TEST(Symmetry, ClearedFeaturesOfTheOtherSideAreMirrored)
   const SymmetricResult made =
     remeshSymmetric(input, aboutQuads(300), about(Vector3(0.5, 0.5, 0.5), Vector3(0, 1, 0)));
   expectSymmetric(made, input, 2, true);
-  const QuadMesh& quads = made.remeshed.quads;
-  double length = 0;
-  for (const QuadLine& line : quads.lines)
-  {
-    length += (quads.points[line.a] - quads.points[line.b]).norm();
-  }
-  EXPECT_NEAR(length, 7, 0.01); // with the images of the first two
+  EXPECT_NEAR(lengthOfLines(made.remeshed.quads), 7, 0.01); // with the images of the first two
 }
 
 TEST(Symmetry, ARidgeInThePlaneStaysAFeature)
@@ -121,12 +121,7 @@ TEST(Symmetry, ARidgeInThePlaneStaysAFeature)
   const SymmetricResult made =
     remeshSymmetric(input, aboutQuads(300), about(Vector3(0.5, 0.5, 0.5), Vector3(1, -1, 0)));
   expectSymmetric(made, input, 2, true);
-  double length = 0;
-  for (const QuadLine& line : made.remeshed.quads.lines)
-  {
-    length += (made.remeshed.quads.points[line.a] - made.remeshed.quads.points[line.b]).norm();
-  }
-  EXPECT_NEAR(length, 12, 1e-9);
+  EXPECT_NEAR(lengthOfLines(made.remeshed.quads), 12, 1e-9);
 }
 
 TEST(Symmetry, OpenSurfaces)
