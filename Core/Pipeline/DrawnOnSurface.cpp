@@ -72,7 +72,7 @@ void drawSizes(PreparedSurface& surface, const SurfaceInput& input, double edgeL
 }
 
 void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, double edgeLength,
-  int threads, std::vector<std::string>& notices)
+  std::vector<std::string>& notices)
 {
   if (places.empty())
   {
@@ -100,7 +100,6 @@ void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, do
       notices.push_back("no feature was cleared at " + where + ": the surface has none");
     }
   }
-  surface.hash = contentHash(surface.mesh, threads);
 }
 
 void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& features,

@@ -19,9 +19,10 @@ ResultKey drawnKey(ResultKey prepared, const SurfaceInput& input, double edgeLen
 void drawSizes(PreparedSurface& surface, const SurfaceInput& input, double edgeLength, int threads,
   std::vector<std::string>& notices);
 
-/// Features at these places are none any more, see clearFeatures; before others are drawn.
+/// Features at these places are none any more, see clearFeatures; before others are drawn. The hash of the surface
+/// stays what it was.
 void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, double edgeLength,
-  int threads, std::vector<std::string>& notices);
+  std::vector<std::string>& notices);
 
 /// Features become those of the surface.
 void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& features,

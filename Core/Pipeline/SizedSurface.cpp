@@ -297,7 +297,7 @@ void addFeatures(const DrawnRequests& drawn, const RemeshOptions& options, Prepa
   const double start = secondsNow();
   const std::size_t before = surface.mesh.faceCount();
   const std::vector<ResultKey> ends = endsOfConstraints(surface.mesh);
-  clearDrawn(surface, drawn.cleared, sized.edgeLength, options.threads, sized.notices);
+  clearDrawn(surface, drawn.cleared, sized.edgeLength, sized.notices);
   if (!drawn.features.empty())
   {
     drawFeatures(surface, drawn.features, sized.edgeLength, options.threads, sized.notices);
@@ -506,7 +506,11 @@ SizedSurface sizePrepared(PreparedSurface surface, const DrawnRequests& drawn,
   sizePreparedSurface(surface, options, sized);
   if (sized.status.ok())
   {
-    clearDrawn(surface, drawn.cleared, sized.edgeLength, options.threads, sized.notices);
+    if (!drawn.cleared.empty())
+    {
+      clearDrawn(surface, drawn.cleared, sized.edgeLength, sized.notices);
+      surface.hash = contentHash(surface.mesh, options.threads);
+    }
     addValences(drawn.valences, options, surface, sized);
   }
   return finished(std::move(surface), options, nullptr, std::move(sized));
