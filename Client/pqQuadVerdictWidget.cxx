@@ -203,12 +203,5 @@ void pqQuadVerdictWidget::applyRemedy()
   BEGIN_UNDO_SET(this->Apply->text());
   quadrille::apply(this->filter(), *remedy);
   END_UNDO_SET();
-  pqQuadrilleRun::instance()->start(this->filter(),
-    [](pqQuadrilleRun::End how)
-    {
-      if (how == pqQuadrilleRun::End::Stopped)
-      {
-        pqApplicationCore::instance()->getUndoStack()->undo();
-      }
-    });
+  pqQuadrilleRun::instance()->start(this->filter(), pqQuadrilleRun::undoIfStopped);
 }

@@ -289,14 +289,7 @@ void pqQuadrilleHandles::finish()
     }
     if (auto* filter = vtkSMSourceProxy::SafeDownCast(this->Constraint->GetFilter()))
     {
-      pqQuadrilleRun::instance()->start(filter,
-        [](pqQuadrilleRun::End how)
-        {
-          if (how == pqQuadrilleRun::End::Stopped)
-          {
-            pqApplicationCore::instance()->getUndoStack()->undo();
-          }
-        });
+      pqQuadrilleRun::instance()->start(filter, pqQuadrilleRun::undoIfStopped);
     }
   }
   this->IsBusy = false;

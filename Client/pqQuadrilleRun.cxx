@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadrilleRun.h"
 
+#include "InvokeOnObject.h"
 #include "StatusBar.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqServerManagerModel.h"
+#include "pqUndoStack.h"
 #include "pqView.h"
 #include "vtkClientServerStream.h"
 #include "vtkSMPropertyHelper.h"
@@ -22,17 +24,14 @@
 namespace
 {
 
+using quadrille::invoke;
+
 constexpr int kLookAgain = 20; // milliseconds
 
-/// Calls a method on the object of the filter, wherever that is; what it gives back.
-template <class... Values>
-int call(vtkSMSourceProxy* filter, const char* method, Values... values)
+/// A number that a method of the filter's object gives.
+int ask(vtkSMSourceProxy* filter, const char* method)
 {
-  vtkClientServerStream stream;
-  stream << vtkClientServerStream::Invoke << VTKOBJECT(filter) << method;
-  static_cast<void>((stream << ... << values));
-  stream << vtkClientServerStream::End;
-  filter->GetSession()->ExecuteStream(filter->GetLocation(), stream);
+  invoke(filter, method);
   int result = 0;
   filter->GetSession()->GetLastResult(filter->GetLocation()).GetArgument(0, 0, &result);
   return result;
@@ -78,6 +77,15 @@ pqQuadrilleRun* pqQuadrilleRun::instance()
 }
 
 //-----------------------------------------------------------------------------
+void pqQuadrilleRun::undoIfStopped(End how)
+{
+  if (how == End::Stopped)
+  {
+    pqApplicationCore::instance()->getUndoStack()->undo();
+  }
+}
+
+//-----------------------------------------------------------------------------
 void pqQuadrilleRun::start(vtkSMSourceProxy* filter, Then then)
 {
   this->IsTold = true;
@@ -99,8 +107,8 @@ void pqQuadrilleRun::dropPreview(vtkSMSourceProxy* filter)
     this->Waiting.clear();
     this->end(End::Stopped);
   }
-  call(filter, "StopUnderway");
-  call(filter, "TakeUnderway");
+  invoke(filter, "StopUnderway");
+  invoke(filter, "TakeUnderway");
   update(filter); // a look-up
   renderActive();
 }
@@ -114,9 +122,9 @@ void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
   }
   this->Filter = filter;
   this->Waiting.push_back(std::move(then));
-  call(filter, "SetInBackground", 1);
+  invoke(filter, "SetInBackground", 1);
   update(filter);
-  if (call(filter, "GetIsUnderway") == 0)
+  if (ask(filter, "GetIsUnderway") == 0)
   {
     this->show();
     return;
@@ -139,14 +147,14 @@ void pqQuadrilleRun::look()
   {
     this->end(End::Stopped); // it was deleted
   }
-  else if (call(this->Filter, "GetIsUnderway") == 0)
+  else if (ask(this->Filter, "GetIsUnderway") == 0)
   {
     this->show();
   }
   else if (this->IsTold)
   {
     quadrille::say(QString("Making quads: %1 %. Escape stops it.")
-                     .arg(call(this->Filter, "GetUnderwayProgress")));
+                     .arg(ask(this->Filter, "GetUnderwayProgress")));
   }
 }
 
@@ -154,7 +162,7 @@ void pqQuadrilleRun::look()
 void pqQuadrilleRun::show()
 {
   vtkSMSourceProxy* filter = this->Filter;
-  call(filter, "TakeUnderway");
+  invoke(filter, "TakeUnderway");
   update(filter);
   this->end(End::Shown);
   renderActive();
@@ -173,8 +181,8 @@ void pqQuadrilleRun::stop()
 {
   if (this->Filter)
   {
-    call(this->Filter, "StopUnderway");
-    call(this->Filter, "TakeUnderway");
+    invoke(this->Filter, "StopUnderway");
+    invoke(this->Filter, "TakeUnderway");
     this->end(End::Stopped);
   }
 }

@@ -36,6 +36,9 @@ public:
   };
   using Then = std::function<void(End)>;
 
+  /// What is done after a run of one step of the user that says nothing more.
+  static void undoIfStopped(End how);
+
   /// Executes the filter; then: what is done when its quads are shown, or when it was stopped. Where one run takes the
   /// place of another what was to be done after that one is done after this one.
   void start(vtkSMSourceProxy* filter, Then then);

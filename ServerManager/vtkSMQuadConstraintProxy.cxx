@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMQuadConstraintProxy.h"
 
+#include "InvokeOnObject.h"
+
 #include "vtkBoundingBox.h"
 #include "vtkClientServerStream.h"
 #include "vtkCommand.h"
@@ -32,6 +34,8 @@ vtkStandardNewMacro(vtkSMQuadConstraintProxy);
 
 namespace
 {
+
+using quadrille::invoke;
 
 constexpr std::size_t kCoordinates = 3;
 
@@ -189,17 +193,6 @@ bool hasPreview(vtkSMProxy* filter)
   constexpr int seamless = 3; // vtkQuadRemesh::METHOD_SEAMLESS
   return vtkSMPropertyHelper(filter, "Symmetry").GetAsInt() == 0 &&
     vtkSMPropertyHelper(filter, "Method").GetAsInt() != seamless;
-}
-
-/// Calls a method with a value on the object of the proxy, past its properties.
-template <class... Values>
-void invoke(vtkSMProxy* proxy, const char* method, Values... values)
-{
-  vtkClientServerStream stream;
-  stream << vtkClientServerStream::Invoke << VTKOBJECT(proxy) << method;
-  static_cast<void>((stream << ... << values));
-  stream << vtkClientServerStream::End;
-  proxy->GetSession()->ExecuteStream(proxy->GetLocation(), stream);
 }
 
 void updateViews(vtkSMSessionProxyManager* manager)
