@@ -46,6 +46,19 @@ class Window:
     def xdotool(self, *words):
         subprocess.run(["xdotool", *[str(w) for w in words]], env=dict(os.environ, DISPLAY=self.display), check=True)
 
+    def resize(self, width, height, seconds=60):
+        """xdotool looks at all windows, and ends with an error where one goes meanwhile, as the splash screen does."""
+        end = time.time() + seconds
+        while True:
+            try:
+                self.xdotool("search", "--sync", "--onlyvisible", "--name", "ParaView", "windowmove", 0, 0,
+                             "windowsize", width, height)
+                return
+            except subprocess.CalledProcessError:
+                if time.time() > end:
+                    raise
+                time.sleep(0.5)
+
     def ask(self, code, seconds=60):
         """What the code prints in the window; it is idle then."""
         time.sleep(0.15)  # the window takes up what was done before
@@ -347,8 +360,7 @@ def main():
                                        stderr=subprocess.STDOUT)
         try:
             window.ask("pass", seconds=120)
-            window.xdotool("search", "--sync", "--onlyvisible", "--name", "ParaView", "windowmove", 0, 0, "windowsize",
-                           WIDTH, HEIGHT - 40)
+            window.resize(WIDTH, HEIGHT - 40)
             time.sleep(2)
             bad = run(window, tasks)
         except BaseException:

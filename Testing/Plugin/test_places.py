@@ -56,8 +56,7 @@ class Session(count_actions.Window):
     def start(self):
         """A window with room for its frame on the screen."""
         self.ask("pass", seconds=180)
-        self.xdotool("search", "--sync", "--onlyvisible", "--name", "ParaView", "windowmove", 0, 0, "windowsize", 1880,
-                     1000)
+        self.resize(1880, 1000)
         time.sleep(2)
         self.find_origin()
 
