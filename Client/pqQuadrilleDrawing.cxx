@@ -832,6 +832,7 @@ void pqQuadrilleDrawing::perform(vtkSMSourceProxy* filter, const NewConstraint& 
   const bool isMade = quadrille::addConstraint(filter, constraint) != nullptr;
   if (isMade)
   {
+    pqQuadrilleRun::prepare(filter);
     this->showQuads(filter);
   }
   END_UNDO_SET();

@@ -86,6 +86,12 @@ void pqQuadrilleRun::undoIfStopped(End how)
 }
 
 //-----------------------------------------------------------------------------
+void pqQuadrilleRun::prepare(vtkSMSourceProxy* filter)
+{
+  invoke(filter, "SetInBackground", 1);
+}
+
+//-----------------------------------------------------------------------------
 void pqQuadrilleRun::start(vtkSMSourceProxy* filter, Then then)
 {
   this->IsTold = true;
@@ -122,7 +128,7 @@ void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
   }
   this->Filter = filter;
   this->Waiting.push_back(std::move(then));
-  invoke(filter, "SetInBackground", 1);
+  prepare(filter);
   update(filter);
   if (ask(filter, "GetIsUnderway") == 0)
   {

@@ -39,6 +39,9 @@ public:
   /// What is done after a run of one step of the user that says nothing more.
   static void undoIfStopped(End how);
 
+  /// From now on an execution of the filter, by whatever is shown of it, only begins the run that start() then follows.
+  static void prepare(vtkSMSourceProxy* filter);
+
   /// Executes the filter; then: what is done when its quads are shown, or when it was stopped. Where one run takes the
   /// place of another what was to be done after that one is done after this one.
   void start(vtkSMSourceProxy* filter, Then then);

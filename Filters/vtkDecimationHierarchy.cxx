@@ -7,6 +7,7 @@
 #include "Common/Report.h"
 #include "Convert/Frame.h"
 #include "Convert/PolyData.h"
+#include "Evaluation/ConstraintWords.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/ContentHash.h"
 #include "Pipeline/EnterFrame.h"
@@ -15,6 +16,7 @@
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/SizedSurface.h"
 #include "Requests/Guides.h"
+#include "Session/Moves.h"
 #include "Stages/Log.h"
 #include "Stages/SharedLevels.h"
 
@@ -80,7 +82,14 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   auto& held = block.state->memoryAs<HierarchyMemory>();
   held.surface.reset(); // before the new one takes its memory
   held.map.reset();
-  quadrille::ConvertedSurface converted = this->ConvertInputs(block);
+  quadrille::AskedConstraints asked;
+  quadrille::ConvertedSurface converted = this->ConvertInputs(block, asked);
+  if (quadrille::asksForMoves(asked.placed))
+  {
+    throw quadrille::InvalidInput(
+      "an irregular vertex is to be moved, which needs the quads without "
+      "the move: only Quad Remesh can do this");
+  }
   quadrille::RemeshOptions options = this->MakeOptions(block);
   // The log belongs to the surface as the next filters prepare it again.
   options.smallDetails = quadrille::SmallDetails::Resolve;

@@ -85,7 +85,7 @@ void vtkQuadRemesh::SetKeepLevels(vtkTypeBool on)
 //------------------------------------------------------------------------------
 double vtkQuadRemesh::GetRememberedMegabytes() const
 {
-  if (this->GetIsUnderway() != 0)
+  if (this->GetIsUnderway() != 0 || (this->Ending && !this->Ending->isOver()))
   {
     return this->RememberedBefore;
   }
@@ -269,7 +269,7 @@ int vtkQuadRemesh::RequestData(
   const int isMade = this->Superclass::RequestData(request, inputs, outputs);
   if (this->GetOutcome() != Underway)
   {
-    this->Background.reset(); // nobody waits for it any more
+    this->LeaveBackground(); // nobody waits for it any more
   }
   return isMade;
 }
@@ -280,15 +280,16 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   this->CheckProperties();
   vtkPolyData* input = block.input();
   const std::unique_ptr<quadrille::PreparedRun> run = this->MakeRun(block);
-  std::optional<quadrille::ConvertedSurface>& converted = run->converted;
+  this->TellOfInputs(run->told);
+  if (run->failure)
+  {
+    std::rethrow_exception(run->failure);
+  }
+  const quadrille::ConvertedSurface& converted = *run->converted;
   quadrille::AskedConstraints& asked = run->asked;
   const quadrille::RemeshOptions& options = run->problem.options;
   auto* memory = static_cast<quadrille::LevelMemory*>(run->memory.get());
   const quadrille::QuadsMade& made = *run->made;
-  if (!converted)
-  {
-    converted = this->ConvertForPieces(block);
-  }
   for (const std::string& warning : made.warnings)
   {
     this->AddWarning(warning);
@@ -308,7 +309,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     this->WritePreview(block, asked, result);
     return;
   }
-  this->WriteQuads(block, { *converted, asked, made });
+  this->WriteQuads(block, { converted, asked, made });
   if (!block.path.empty() && options.quads && !options.coarsestIntegers &&
     quadrille::isFarFrom(*options.quads, block))
   {
@@ -328,7 +329,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
       vtkPolyData* earlier =
         memory != nullptr ? memory->mapped.sameTriangles(result, input) : nullptr;
       quadrille::writeMapped(
-        result, options, { input, &*converted, this->TextureCoordinates != 0, earlier }, mapped);
+        result, options, { input, &converted, this->TextureCoordinates != 0, earlier }, mapped);
     }
     if (memory != nullptr)
     {

@@ -90,6 +90,7 @@ struct MetSheets;
 struct PartContacts;
 struct PreparedRun;
 struct QuadProblem;
+struct RemeshResult;
 struct RunOfBlock;
 struct SurfaceInput;
 enum class TouchingSheets : std::uint8_t;
@@ -602,6 +603,9 @@ private:
   /// Has the quads of the block made, here or in the background; throws Underway.
   std::unique_ptr<quadrille::PreparedRun> MakeRun(quadrille::Block& block);
   std::unique_ptr<quadrille::PreparedRun> TakeFromBackground();
+  /// Asks a run in the background to end, of which nobody wants the quads. It does so soon, but nobody waits for it
+  /// here; only the next run does.
+  void LeaveBackground();
   bool GoesToBackground(const quadrille::Block& block) const;
   /// Symmetry, and where cell data come from.
   void SetWishes(quadrille::QuadProblem& problem) const;
@@ -668,6 +672,7 @@ private:
   vtkTypeBool InBackground = 0;
   double RememberedBefore = 0; ///< megabytes, when the run in the background began
   std::unique_ptr<quadrille::BackgroundRun> Background;
+  std::unique_ptr<quadrille::BackgroundRun> Ending; ///< has been left
 };
 
 #endif

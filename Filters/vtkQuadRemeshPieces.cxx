@@ -4,11 +4,11 @@
 
 #include "Blocks/Blocks.h"
 #include "Blocks/LevelMemory.h"
-#include "Constraints/Constraints.h"
 #include "Convert/PolyData.h"
 #include "Pipeline/Options.h"
 #include "Ranks/Spread.h"
 #include "Runs/BackgroundRun.h"
+#include "Runs/GivenInputs.h"
 #include "Runs/InPieces.h"
 #include "Ways/Ways.h"
 
@@ -68,17 +68,21 @@ void vtkQuadRemesh::SetWishes(quadrille::QuadProblem& problem) const
 std::unique_ptr<quadrille::PreparedRun> vtkQuadRemesh::PrepareRun(quadrille::Block& block)
 {
   auto run = std::make_unique<quadrille::PreparedRun>();
-  run->inputs = block.inputs;
+  run->inputs = this->GetGivenInputs(block);
+  if (this->GoesToBackground(block))
+  {
+    run->inputs.detach();
+  }
   quadrille::QuadProblem& problem = run->problem;
   vtkPolyData* input = block.input();
   quadrille::GivenSurface& surface = problem.surface;
   surface.polygons = static_cast<std::size_t>(input->GetNumberOfPolys());
-  surface.triangles = [input] { return quadrille::trianglesOf(input); };
+  surface.triangles = [given = run->inputs.port(0)] { return quadrille::trianglesOf(given); };
   surface.whyNotCut = this->WhyNotCut(block);
-  surface.whole = [this, &block, made = run.get()]
+  surface.whole = [reads = run.get()]
   {
-    made->converted = this->ConvertInputs(block, &made->asked);
-    return std::move(made->converted->input);
+    reads->converted = quadrille::readInputs(reads->inputs, reads->told, reads->asked);
+    return std::move(reads->converted->input);
   };
   problem.options = this->MakeRunOptions(block);
   problem.options.leavesOutFailed = this->FailedComponents == LEAVE_OUT_FAILED_COMPONENTS;
@@ -116,20 +120,17 @@ std::unique_ptr<quadrille::PreparedRun> vtkQuadRemesh::MakeRun(quadrille::Block&
     }
     return this->TakeFromBackground();
   }
-  this->Background.reset(); // of other settings
+  this->LeaveBackground(); // of other settings
   std::unique_ptr<quadrille::PreparedRun> run = this->PrepareRun(block);
   if (!this->GoesToBackground(block))
   {
-    run->made = quadrille::remesh(run->problem);
+    this->Ending.reset(); // waits for it, as both have the same memory
+    run->make();
     return run;
   }
-  // What the filter reads and tells belongs to this thread.
-  run->problem.surface.whole = [surface = run->problem.surface.whole()]() mutable
-  { return std::move(surface); };
-  run->notices = this->GetBlockNotices();
   this->RememberedBefore = this->GetRememberedMegabytes();
-  this->Background =
-    std::make_unique<quadrille::BackgroundRun>(std::move(run), block.wanted, this->TimeLimit);
+  this->Background = std::make_unique<quadrille::BackgroundRun>(
+    std::move(run), block.wanted, this->TimeLimit, std::move(this->Ending));
   throw quadrille::Underway();
 }
 
@@ -142,8 +143,18 @@ std::unique_ptr<quadrille::PreparedRun> vtkQuadRemesh::TakeFromBackground()
   {
     this->NoteTimeIsOver();
   }
-  this->SetNotices(run->notices);
   return run;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::LeaveBackground()
+{
+  if (this->Background && !this->Background->isOver())
+  {
+    this->Background->leave();
+    this->Ending = std::move(this->Background); // the one before is its own
+  }
+  this->Background.reset();
 }
 
 //------------------------------------------------------------------------------

@@ -111,7 +111,7 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
     this->SayOf(*blocks[i]);
-    converted.push_back(this->ConvertInputs(*blocks[i], &asked[i]));
+    converted.push_back(this->ConvertInputs(*blocks[i], asked[i]));
     parts.push_back(std::move(converted.back().input));
     if (quadrille::asksForMoves(asked[i].placed))
     {

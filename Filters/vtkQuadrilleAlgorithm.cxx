@@ -422,12 +422,6 @@ void vtkQuadrilleAlgorithm::AddNotice(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadrilleAlgorithm::SetNotices(const std::vector<std::string>& notices)
-{
-  this->Report->notices = notices;
-}
-
-//------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::SayOf(quadrille::Block& block)
 {
   this->Report = &block.state->report;

@@ -245,7 +245,6 @@ protected:
   void NoteTimeIsOver() { this->TimeIsOver = true; } ///< of a run in the background
   /// A notice of something that the user asked for and does not get: a warning, too.
   void AddWarning(const std::string& text);
-  void SetNotices(const std::vector<std::string>& notices);
   void SetResult(const std::string& text);
   const std::vector<std::string>& GetBlockNotices() const;
   ///@}

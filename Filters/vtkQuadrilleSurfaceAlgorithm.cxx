@@ -4,14 +4,9 @@
 
 #include "Blocks/BlockQuads.h"
 #include "Blocks/Blocks.h"
-#include "Constraints/ConstraintTable.h"
-#include "Constraints/Constraints.h"
-#include "Convert/ArrayNames.h"
 #include "Convert/PolyData.h"
-#include "Pipeline/Pipeline.h"
-#include "Pipeline/SizedSurface.h"
-#include "Prepare/ConstraintPlacement.h"
-#include "Runs/InPieces.h"
+#include "Pipeline/Options.h"
+#include "Runs/GivenInputs.h"
 
 #include "vtkCellData.h"
 #include "vtkFieldData.h"
@@ -70,116 +65,48 @@ std::string vtkQuadrilleSurfaceAlgorithm::GetGuideArrayInUse() const
 }
 
 //------------------------------------------------------------------------------
+quadrille::GivenInputs vtkQuadrilleSurfaceAlgorithm::GetGivenInputs(
+  const quadrille::Block& block) const
+{
+  quadrille::GivenInputs given;
+  for (std::size_t port = 0; port < block.inputs.size(); ++port)
+  {
+    given.ports.emplace_back(block.input(static_cast<int>(port)));
+  }
+  given.patchArray = this->PatchArrayName;
+  given.guideArray = this->GetGuideArrayInUse();
+  given.strokeWeight = this->StrokeWeight;
+  given.strokeRadius = this->StrokeRadius;
+  given.pointValence = this->PointValence;
+  given.options = this->MakeOptions(block);
+  return given;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleSurfaceAlgorithm::TellOfInputs(const std::vector<quadrille::ToldOfInputs>& told)
+{
+  for (const quadrille::ToldOfInputs& word : told)
+  {
+    word.isWarning ? this->AddWarning(word.text) : this->AddNotice(word.text);
+  }
+}
+
+//------------------------------------------------------------------------------
 quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
-  quadrille::Block& block, quadrille::AskedConstraints* asked)
+  const quadrille::Block& block, quadrille::AskedConstraints& asked)
 {
-  vtkPolyData* data = block.input(0);
-  this->WarnOfUnusedArrays(block);
-  quadrille::ConvertedSurface surface =
-    quadrille::convertSurface(data, this->PatchArrayName, this->NumberOfThreads);
-  if (!this->GetGuideArrayInUse().empty())
+  std::vector<quadrille::ToldOfInputs> told;
+  try
   {
-    quadrille::addGuideArray(data, this->GuideArrayName, surface);
+    quadrille::ConvertedSurface surface =
+      quadrille::readInputs(this->GetGivenInputs(block), told, asked);
+    this->TellOfInputs(told);
+    return surface;
   }
-  this->TellIgnored(surface);
-  quadrille::ConstraintInputs constraints;
-  constraints.curves = block.input(1);
-  constraints.strokes = block.input(2);
-  constraints.points = block.input(3);
-  if (this->GetNumberOfInputPorts() > 5)
+  catch (const std::exception&)
   {
-    constraints.connections = block.input(4);
-    constraints.cycles = block.input(5);
-  }
-  if (this->GetNumberOfInputPorts() > 6)
-  {
-    constraints.mixed = block.input(6);
-  }
-  constraints.surface = data;
-  constraints.strokeWeight = this->StrokeWeight;
-  constraints.strokeRadius = this->StrokeRadius;
-  constraints.valence = this->PointValence;
-  constraints.threads = this->NumberOfThreads;
-  if (constraints.points || constraints.mixed)
-  {
-    constraints.sameWithin = quadrille::kOnePlace *
-      quadrille::targetEdgeLength(this->MakeOptions(block),
-        quadrille::areaOfPolygons(surface.input), quadrille::diagonalOf(surface.input));
-  }
-  if (asked)
-  {
-    asked->arrays = quadrille::arrayConstraints(
-      surface.input, [&surface](quadrille::Index polygon) { return surface.cell(polygon); });
-  }
-  quadrille::PlacedConstraints result = quadrille::applyConstraints(surface, constraints);
-  for (const std::string& notice : result.notices)
-  {
-    this->AddWarning(notice);
-  }
-  if (asked)
-  {
-    asked->placed = std::move(result.placed);
-  }
-  else if (std::any_of(result.placed.begin(), result.placed.end(),
-             [](const quadrille::PlacedConstraint& placed)
-             { return placed.kind == quadrille::ConstraintKind::Move; }))
-  {
-    throw quadrille::InvalidInput(
-      "an irregular vertex is to be moved, which needs the quads without "
-      "the move: only Quad Remesh can do this");
-  }
-  return surface;
-}
-
-//------------------------------------------------------------------------------
-quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertForPieces(
-  const quadrille::Block& block)
-{
-  this->WarnOfUnusedArrays(block);
-  quadrille::ConvertedSurface surface = quadrille::polygonsOf(block.input(0));
-  this->TellIgnored(surface);
-  return surface;
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadrilleSurfaceAlgorithm::TellIgnored(const quadrille::ConvertedSurface& surface)
-{
-  if (surface.ignoredCells > 0)
-  {
-    this->AddNotice(std::to_string(surface.ignoredCells) + " vertex and line cells are not used");
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(const quadrille::Block& block)
-{
-  const auto warn = [&](int port, const char* name, const std::vector<quadrille::ReadArray>& read)
-  {
-    if (vtkPolyData* data = block.input(port))
-    {
-      for (const std::string& notice : quadrille::arrayNotices(data, name, read))
-      {
-        this->AddWarning(notice);
-      }
-    }
-  };
-  warn(0, "the surface", quadrille::surfaceArrays(this->PatchArrayName));
-  warn(1, "the feature curves", quadrille::lineArrays());
-  warn(2, "the guiding strokes", quadrille::lineArrays());
-  warn(3, "the valence points", quadrille::pointArrays());
-  if (this->GetNumberOfInputPorts() > 6)
-  {
-    std::vector<quadrille::ReadArray> all = quadrille::lineArrays();
-    for (const quadrille::ReadArray& array : quadrille::pointArrays())
-    {
-      all.push_back(array);
-    }
-    warn(6, "the constraints", all);
-  }
-  for (const std::string& notice :
-    quadrille::partnerNotices(block.input(0), block.input(1), block.input(2)))
-  {
-    this->AddWarning(notice);
+    this->TellOfInputs(told);
+    throw;
   }
 }
 

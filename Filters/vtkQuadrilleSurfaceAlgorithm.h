@@ -40,8 +40,9 @@ namespace quadrille
 {
 struct AskedConstraints;
 struct ConvertedSurface;
+struct GivenInputs;
 struct RemeshOptions;
-struct RemeshResult;
+struct ToldOfInputs;
 }
 
 class QUADRILLEFILTERS_EXPORT vtkQuadrilleSurfaceAlgorithm : public vtkQuadrilleAlgorithm
@@ -246,12 +247,13 @@ protected:
   void CheckBlockNames(const std::vector<std::string>& names) const override;
   void AddSettings(std::ostream& os) const override;
 
-  /// The surface and what is asked of it as Core takes them; warns of what is not used. asked, if given, gets the
-  /// constraints of all ports.
+  /// The block's inputs with what the properties ask for, to be read by any thread.
+  quadrille::GivenInputs GetGivenInputs(const quadrille::Block& block) const;
+  /// Notices and warnings of those who have read them.
+  void TellOfInputs(const std::vector<quadrille::ToldOfInputs>& told);
+  /// Reads them here; asked gets the constraints of all ports.
   quadrille::ConvertedSurface ConvertInputs(
-    quadrille::Block& block, quadrille::AskedConstraints* asked = nullptr);
-  /// What ConvertInputs gives, and tells, of a surface that Core reads by itself: without polygons and constraints.
-  quadrille::ConvertedSurface ConvertForPieces(const quadrille::Block& block);
+    const quadrille::Block& block, quadrille::AskedConstraints& asked);
   /// The properties in Core's units, with the block's part of the number of quads.
   quadrille::RemeshOptions MakeOptions(const quadrille::Block& block) const;
   /// GuideArrayName, or empty where none is to be used.
@@ -276,9 +278,6 @@ protected:
 private:
   vtkQuadrilleSurfaceAlgorithm(const vtkQuadrilleSurfaceAlgorithm&) = delete;
   void operator=(const vtkQuadrilleSurfaceAlgorithm&) = delete;
-
-  void WarnOfUnusedArrays(const quadrille::Block& block);
-  void TellIgnored(const quadrille::ConvertedSurface& surface);
 };
 
 #endif

@@ -112,7 +112,9 @@ std::vector<int> readPointValences(vtkPolyData* data)
   {
     const auto point = static_cast<vtkIdType>(i);
     const double valence = array->GetTuple1(point);
-    requireValence(point, Vector3(data->GetPoint(point)), valence);
+    Vector3 place; // of its own: another thread may read the points, too
+    data->GetPoint(point, place.data());
+    requireValence(point, place, valence);
     valences[i] = static_cast<int>(valence);
   }
   return valences;

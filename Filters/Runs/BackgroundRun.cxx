@@ -10,9 +10,26 @@
 namespace quadrille
 {
 
+void PreparedRun::make()
+{
+  try
+  {
+    made = remesh(problem);
+    if (!converted)
+    {
+      converted = readForPieces(inputs, told);
+    }
+  }
+  catch (...)
+  {
+    failure = std::current_exception();
+  }
+}
+
 BackgroundRun::BackgroundRun(
-  std::unique_ptr<PreparedRun> run, EarlierResult wanted, double timeLimit)
-  : run_(std::move(run)), wanted_(std::move(wanted)),
+  std::unique_ptr<PreparedRun> run, EarlierResult wanted, double timeLimit,
+  std::unique_ptr<BackgroundRun> before)
+  : run_(std::move(run)), wanted_(std::move(wanted)), before_(std::move(before)),
     thread_([this, timeLimit] { work(timeLimit); })
 {
 }
@@ -26,8 +43,15 @@ BackgroundRun::~BackgroundRun()
   }
 }
 
+void BackgroundRun::leave()
+{
+  isLeft_ = true;
+  stop();
+}
+
 void BackgroundRun::work(double timeLimit)
 {
+  before_.reset(); // waits for it
   const auto begin = std::chrono::steady_clock::now();
   const ProgressCallback progress = [this, begin, timeLimit](double fraction, const std::string&)
   {
@@ -38,25 +62,18 @@ void BackgroundRun::work(double timeLimit)
   };
   PollScope scope(progress);
   run_->problem.options.progress = scope.callback();
-  try
-  {
-    run_->made = remesh(run_->problem);
-  }
-  catch (...)
-  {
-    failure_ = std::current_exception();
-  }
+  run_->make();
   run_->problem.options.progress = {};
+  if (isLeft_)
+  {
+    run_.reset();
+  }
   isOver_ = true;
 }
 
 std::unique_ptr<PreparedRun> BackgroundRun::take()
 {
   thread_.join();
-  if (failure_)
-  {
-    std::rethrow_exception(failure_);
-  }
   return std::move(run_);
 }
 

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestSurfaces.h"
 
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
 #include <vtkPoints.h>
 #include <vtkQuadRemesh.h>
 #include <vtkTrivialProducer.h>
@@ -69,6 +72,56 @@ TEST(QuadsInBackground, AreTheSame)
   }
 }
 
+TEST(QuadsInBackground, TellWhatIsToldOfTheirInputs)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
+  vtkNew<vtkDoubleArray> sizes; // of cells, where those of points are read
+  sizes->SetName("Sizing");
+  sizes->SetNumberOfTuples(input->GetNumberOfCells());
+  sizes->Fill(1);
+  input->GetCellData()->AddArray(sizes);
+  std::vector<std::string> notices, warnings;
+  for (const bool isBeside : { false, true })
+  {
+    vtkNew<vtkQuadRemesh> filter;
+    const test::Messages messages(filter);
+    filter->SetInputData(input);
+    filter->SetNumberOfQuads(400);
+    isBeside ? updateInBackground(filter) : filter->Update();
+    notices.emplace_back(filter->GetNoticesText());
+    warnings.push_back(messages.warnings.substr(messages.warnings.find("array")));
+  }
+  EXPECT_NE(notices[0].find("Sizing"), std::string::npos);
+  EXPECT_EQ(notices[0], notices[1]);
+  EXPECT_EQ(warnings[0], warnings[1]);
+}
+
+TEST(QuadsInBackground, DoNotReadWhatThePipelineChangesMeanwhile)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(200, 100));
+  const vtkSmartPointer<vtkPoints> points = input->GetPoints();
+  const vtkSmartPointer<vtkCellArray> polys = input->GetPolys();
+  vtkNew<vtkQuadRemesh> here, beside;
+  for (vtkQuadRemesh* filter : { here.Get(), beside.Get() })
+  {
+    filter->SetInputData(input);
+    filter->SetNumberOfQuads(400);
+  }
+  here->Update();
+  beside->SetInBackground(1);
+  beside->Update();
+  const vtkMTimeType before = points->GetMTime();
+  input->Initialize(); // as a source does it before it fills its output again
+  wait(beside);
+  input->SetPoints(points);
+  input->SetPolys(polys);
+  EXPECT_EQ(points->GetMTime(), before); // by which the filter knows them again
+  beside->TakeUnderway();
+  beside->Update();
+  EXPECT_EQ(beside->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  EXPECT_EQ(placesOf(here->GetOutput()), placesOf(beside->GetOutput()));
+}
+
 TEST(QuadsInBackground, LeaveTheOutputsAsTheyWereUntilTheyAreTaken)
 {
   vtkNew<vtkQuadRemesh> filter;
@@ -128,6 +181,31 @@ TEST(QuadsInBackground, CanBeStopped)
   EXPECT_EQ(placesOf(filter->GetOutput()), before);
 }
 
+TEST(QuadsInBackground, ThatAreLeftHoldNothingUp)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
+  vtkNew<vtkQuadRemesh> filter;
+  filter->SetInputData(input);
+  filter->SetNumberOfQuads(400);
+  filter->Update();
+  const std::vector<double> before = placesOf(filter->GetOutput());
+  filter->SetInBackground(1);
+  for (const vtkIdType quads : { 20000, 30000, 25000 }) // each waits for the one before, but not here
+  {
+    filter->SetNumberOfQuads(quads);
+    filter->Update();
+    EXPECT_TRUE(filter->GetIsUnderway());
+  }
+  filter->SetNumberOfQuads(400); // known
+  filter->Update();
+  EXPECT_FALSE(filter->GetIsUnderway());
+  EXPECT_EQ(placesOf(filter->GetOutput()), before);
+  filter->SetInBackground(0);
+  filter->SetNumberOfQuads(900);
+  filter->Update(); // has the same memory, so that it waits
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+}
+
 TEST(QuadsInBackground, ThatFailAreToldWhenTheyAreTaken)
 {
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::gridPlane(4, 4));
@@ -140,7 +218,7 @@ TEST(QuadsInBackground, ThatFailAreToldWhenTheyAreTaken)
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::TooLarge);
   EXPECT_NE(messages.errors.find(filter->GetOutcomeText()), std::string::npos);
 
-  vtkNew<vtkQuadRemesh> broken; // found before a thread is begun
+  vtkNew<vtkQuadRemesh> broken; // found when the thread reads it
   const test::Messages told(broken);
   input->GetPoints()->SetPoint(7, 0, std::nan(""), 0);
   input->Modified();
