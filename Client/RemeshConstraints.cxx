@@ -4,6 +4,7 @@
 
 #include "FetchedData.h"
 
+#include "pqActiveObjects.h"
 #include "pqUndoStack.h"
 #include "vtkCellData.h"
 #include "vtkCleanPolyData.h"
@@ -25,6 +26,8 @@
 #include "vtkStripper.h"
 #include "vtkTable.h"
 #include "vtkVariant.h"
+
+#include <QSignalBlocker>
 
 #include <algorithm>
 #include <cmath>
@@ -184,9 +187,13 @@ vtkSMSourceProxy* addConstraint(vtkSMSourceProxy* filter, const NewConstraint& c
     property.Set(values.data(), count);
   }
   controller->PostInitializeProxy(made);
-  const vtkSmartPointer<vtkSMProxy> selected = selectionOf(manager)->GetCurrentProxy();
-  controller->RegisterPipelineProxy(made); // which selects it
-  selectionOf(manager)->SetCurrentProxy(selected, vtkSMProxySelectionModel::CLEAR_AND_SELECT);
+  {
+    // The controller selects what it registers. What was selected stays so, and ParaView need not build a panel.
+    const QSignalBlocker unseen(pqActiveObjects::instance());
+    const vtkSmartPointer<vtkSMProxy> selected = selectionOf(manager)->GetCurrentProxy();
+    controller->RegisterPipelineProxy(made);
+    selectionOf(manager)->SetCurrentProxy(selected, vtkSMProxySelectionModel::CLEAR_AND_SELECT);
+  }
   {
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
     vtkSMPropertyHelper(filter, "Constraints").Add(made);

@@ -98,18 +98,21 @@ std::array<int, 4> rectangleRound(vtkSMRenderViewProxy* view, const std::vector<
   return rectangle;
 }
 
-/// Where the rays first hit what is selected of the source: three coordinates each, not numbers where they do not.
-std::vector<double> hitsOf(
-  const std::vector<double>& rays, vtkSMSourceProxy* source, vtkSMProxy* selection)
+/// What answers questions about the source; null where the server has no plugin.
+vtkSmartPointer<vtkSMProxy> newPlaces(vtkSMSourceProxy* source)
 {
   auto places = vtkSmartPointer<vtkSMProxy>::Take(
     source->GetSessionProxyManager()->NewProxy("misc", "QuadSurfacePlaces"));
-  if (!places)
+  if (places)
   {
-    return {};
+    vtkSMPropertyHelper(places, "Input").Set(source);
   }
-  vtkSMPropertyHelper(places, "Input").Set(source);
-  vtkSMPropertyHelper(places, "Selection").Set(selection);
+  return places;
+}
+
+/// Where the rays first hit what is selected or held: three coordinates each, not numbers where they do not.
+std::vector<double> hitsOf(const std::vector<double>& rays, vtkSMProxy* places)
+{
   vtkSMPropertyHelper(places, "Rays").Set(rays.data(), static_cast<unsigned int>(rays.size()));
   places->UpdateVTKObjects();
   places->InvokeCommand("Compute");
@@ -143,7 +146,13 @@ std::vector<std::optional<Place>> placesUnder(
     const std::array<double, 6> ray = rayThrough(view->GetRenderer(), pixel);
     rays.insert(rays.end(), ray.begin(), ray.end());
   }
-  const std::vector<double> hits = hitsOf(rays, source, seen.selection);
+  const vtkSmartPointer<vtkSMProxy> asked = newPlaces(source);
+  if (!asked)
+  {
+    return places;
+  }
+  vtkSMPropertyHelper(asked, "Selection").Set(seen.selection);
+  const std::vector<double> hits = hitsOf(rays, asked);
   for (std::size_t i = 0; i < pixels.size() && 3 * i + 2 < hits.size(); ++i)
   {
     if (std::isfinite(hits[3 * i]) && (seen.isAlone || sourceUnder(view, pixels[i]) == source))
@@ -152,6 +161,27 @@ std::vector<std::optional<Place>> placesUnder(
     }
   }
   return places;
+}
+
+HeldSurface::HeldSurface(vtkSMSourceProxy* source) : places_(newPlaces(source))
+{
+  if (places_)
+  {
+    places_->UpdateVTKObjects();
+    places_->InvokeCommand("Hold");
+  }
+}
+
+std::optional<Place> HeldSurface::placeUnder(vtkSMRenderViewProxy* view, const Pixel& pixel) const
+{
+  if (!places_)
+  {
+    return std::nullopt;
+  }
+  const std::array<double, 6> ray = rayThrough(view->GetRenderer(), pixel);
+  const std::vector<double> hit = hitsOf({ ray.begin(), ray.end() }, places_);
+  return hit.size() == 3 && std::isfinite(hit[0]) ? std::optional<Place>({ hit[0], hit[1], hit[2] })
+                                                  : std::nullopt;
 }
 
 Place directionThrough(vtkSMRenderViewProxy* view, const Pixel& pixel)

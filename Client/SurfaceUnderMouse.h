@@ -6,9 +6,12 @@
 
 #include "DrawnLine.h"
 
+#include "vtkSmartPointer.h"
+
 #include <optional>
 #include <vector>
 
+class vtkSMProxy;
 class vtkSMRenderViewProxy;
 class vtkSMSourceProxy;
 
@@ -22,6 +25,20 @@ vtkSMSourceProxy* sourceUnder(vtkSMRenderViewProxy* view, const Pixel& pixel);
 /// seen. All by one selection in the rectangle round the pixels.
 std::vector<std::optional<Place>> placesUnder(
   vtkSMRenderViewProxy* view, const std::vector<Pixel>& pixels, vtkSMSourceProxy* source);
+
+/// The surface of a source as it is now, to be asked for places while the source changes, without a selection, which
+/// draws the view. What lies before it in the view hides nothing of it.
+class HeldSurface
+{
+public:
+  explicit HeldSurface(vtkSMSourceProxy* source);
+
+  /// Where the surface is under the centre of the pixel.
+  std::optional<Place> placeUnder(vtkSMRenderViewProxy* view, const Pixel& pixel) const;
+
+private:
+  vtkSmartPointer<vtkSMProxy> places_; ///< null where the server knows no such proxy
+};
 
 /// The direction in which the eye looks through a pixel, of any length.
 Place directionThrough(vtkSMRenderViewProxy* view, const Pixel& pixel);

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadVerdictWidget.h"
 
+#include "RemeshConstraints.h"
 #include "RemeshProblems.h"
 #include "pqQuadrilleRun.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
+#include "pqPipelineSource.h"
 #include "pqRenderView.h"
+#include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "vtkCommand.h"
 #include "vtkSMPropertyHelper.h"
@@ -93,6 +96,20 @@ pqQuadVerdictWidget::pqQuadVerdictWidget(
     }
   }
   this->refresh();
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadVerdictWidget::apply()
+{
+  this->Superclass::apply();
+  auto* model = pqApplicationCore::instance()->getServerManagerModel();
+  auto* source = model->findItem<pqPipelineSource*>(this->proxy());
+  // At first ParaView shows what an execution has given, and hides the surface; so it is waited for.
+  if (quadrille::isQuadRemesh(this->proxy()) && source &&
+    source->modifiedState() != pqProxy::UNINITIALIZED)
+  {
+    pqQuadrilleRun::instance()->follow(this->filter());
+  }
 }
 
 //-----------------------------------------------------------------------------

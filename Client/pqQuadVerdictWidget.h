@@ -25,6 +25,9 @@ class pqQuadVerdictWidget : public pqPropertyWidget
 public:
   pqQuadVerdictWidget(vtkSMProxy* filter, vtkSMProperty* verdict, QWidget* parent = nullptr);
 
+  /// ParaView's button Apply, and Auto Apply: the quads are made beside the window.
+  void apply() override;
+
 protected:
   bool event(QEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -3,7 +3,6 @@
 #include "pqQuadrilleDrawing.h"
 
 #include "StatusBar.h"
-#include "SurfaceUnderMouse.h"
 #include "pqQuadrilleOverlay.h"
 #include "pqQuadrilleRun.h"
 
@@ -617,15 +616,15 @@ void pqQuadrilleDrawing::grasp()
   if (ball)
   {
     this->Ball = { filter, *ball, quadrille::irregularVertices(filter),
-      quadrille::edgeLength(filter).value_or(0), nullptr, {} };
+      quadrille::HeldSurface(this->Surface), quadrille::edgeLength(filter).value_or(0), nullptr,
+      {} };
   }
 }
 
 //-----------------------------------------------------------------------------
 std::optional<Place> pqQuadrilleDrawing::placeOfBall() const
 {
-  std::optional<Place> to =
-    quadrille::placesUnder(this->viewProxy(), { this->Path.back() }, this->Surface).front();
+  std::optional<Place> to = this->Ball->Surface.placeUnder(this->viewProxy(), this->Path.back());
   double least = kSameBall * this->Ball->Edge;
   const std::optional<Place> under = to;
   for (const Place& ball : this->Ball->All)
@@ -679,10 +678,9 @@ void pqQuadrilleDrawing::letGo()
     return;
   }
   ball->Move->EndPreview();
-  if (this->View && ball->Filter)
+  if (ball->Filter)
   {
-    pqQuadrilleRun::instance()->dropPreview(ball->Filter);
-    this->View->render();
+    pqQuadrilleRun::instance()->startPreview(ball->Filter, [](pqQuadrilleRun::End) {}); // a look-up
   }
 }
 
@@ -698,19 +696,19 @@ void pqQuadrilleDrawing::finishMove(vtkSMSourceProxy* filter)
     say("That was a click: drag the ball to where it is to go.");
     return;
   }
-  if (this->Ball->Move)
-  {
-    // Where it goes is a place on the quads as they were, whatever preview there is.
-    this->Ball->Move->EndPreview();
-    pqQuadrilleRun::instance()->dropPreview(filter);
-  }
   const std::optional<Place> to = this->placeOfBall();
-  if (!to)
+  this->View
+    ->forceRender(); // a preview may have been begun since, and a selection would find nothing
+  if (!to || quadrille::sourceUnder(this->viewProxy(), this->Path.back()) != this->Surface)
   {
     say("The ball was dropped beside the surface: it stays where it was.");
     return;
   }
   const Place from = this->Ball->From;
+  if (this->Ball->Move)
+  {
+    this->Ball->Move->EndPreview();
+  }
   this->Ball.reset();
   this->perform(filter,
     { "QuadMove", { { "From", coordinatesOf({ from }) }, { "To", coordinatesOf({ *to }) } } });

@@ -5,6 +5,7 @@
 
 #include "DrawnLine.h"
 #include "RemeshConstraints.h"
+#include "SurfaceUnderMouse.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
@@ -146,6 +147,7 @@ private:
     vtkWeakPointer<vtkSMSourceProxy> Filter;
     quadrille::Place From;
     std::vector<quadrille::Place> All; ///< balls, as they were when the button was pressed
+    quadrille::HeldSurface Surface;    ///< as it was then
     double Edge = 0;                   ///< of the quads
     vtkSmartPointer<vtkSMQuadConstraintProxy>
       Move;                                ///< that previews are made with; null: none was made yet

@@ -3,7 +3,6 @@
 #include "pqQuadrilleHandles.h"
 
 #include "RemeshConstraints.h"
-#include "SurfaceUnderMouse.h"
 #include "pqQuadrilleOverlay.h"
 #include "pqQuadrilleRun.h"
 
@@ -159,7 +158,7 @@ void pqQuadrilleHandles::showRings()
 }
 
 //-----------------------------------------------------------------------------
-std::optional<std::size_t> pqQuadrilleHandles::pointUnderMouse(vtkSMSourceProxy* filter) const
+std::optional<std::size_t> pqQuadrilleHandles::grasp(vtkSMSourceProxy* filter)
 {
   const Pixel pixel = this->mouse();
   std::optional<std::size_t> nearest;
@@ -180,10 +179,10 @@ std::optional<std::size_t> pqQuadrilleHandles::pointUnderMouse(vtkSMSourceProxy*
   }
   const Place& point = this->Points[*nearest];
   const Pixel at = quadrille::pixelOf(this->viewProxy(), point);
-  const std::optional<Place> seen =
-    quadrille::placesUnder(this->viewProxy(), { at }, quadrille::sourceUnder(this->viewProxy(), at))
-      .front();
-  if (!seen)
+  vtkSMSourceProxy* surface = quadrille::sourceUnder(this->viewProxy(), at);
+  this->Surface.emplace(surface ? surface : filter);
+  const std::optional<Place> seen = this->Surface->placeUnder(this->viewProxy(), at);
+  if (!surface || !seen)
   {
     return nearest;
   }
@@ -207,7 +206,7 @@ bool pqQuadrilleHandles::onPress(vtkObject*, unsigned long, void*)
   {
     return this->IsBusy;
   }
-  this->Dragged = this->pointUnderMouse(filter);
+  this->Dragged = this->grasp(filter);
   this->HasMoved = false;
   this->IsReleased = false;
   return this->Dragged.has_value();
@@ -230,13 +229,7 @@ bool pqQuadrilleHandles::onRelease(vtkObject*, unsigned long, void*)
   {
     return this->IsBusy;
   }
-  // Where it goes is a place on the quads as they were, whatever preview there is.
   this->IsReleased = true;
-  if (auto* filter = vtkSMSourceProxy::SafeDownCast(this->Constraint->GetFilter()))
-  {
-    this->Constraint->EndPreview();
-    pqQuadrilleRun::instance()->dropPreview(filter);
-  }
   this->glide();
   this->Glide.stop();
   this->IsBusy = true;
@@ -248,15 +241,12 @@ bool pqQuadrilleHandles::onRelease(vtkObject*, unsigned long, void*)
 void pqQuadrilleHandles::glide()
 {
   // While a preview is being made the mouse moves on; the next one is of where it is then.
-  if (!this->Dragged || !this->Constraint || !this->View ||
-    pqQuadrilleRun::instance()->isUnderway())
+  if (!this->Dragged || !this->Constraint || !this->View || !this->Surface ||
+    (!this->IsReleased && pqQuadrilleRun::instance()->isUnderway()))
   {
     return;
   }
-  const Pixel pixel = this->mouse();
-  vtkSMSourceProxy* surface = quadrille::sourceUnder(this->viewProxy(), pixel);
-  const std::optional<Place> place =
-    quadrille::placesUnder(this->viewProxy(), { pixel }, surface).front();
+  const std::optional<Place> place = this->Surface->placeUnder(this->viewProxy(), this->mouse());
   if (!place || *place == this->Points[*this->Dragged])
   {
     return; // beside the surface it stays where it was last
@@ -278,16 +268,22 @@ void pqQuadrilleHandles::finish()
 {
   const std::vector<double> coordinates = coordinatesOf(this->Points);
   this->Dragged.reset();
+  this->Surface.reset();
   if (this->HasMoved && this->Constraint && this->View)
   {
+    auto* filter = vtkSMSourceProxy::SafeDownCast(this->Constraint->GetFilter());
+    if (filter)
+    {
+      pqQuadrilleRun::prepare(filter);
+    }
     BEGIN_UNDO_SET("Drag a Point");
-    this->Constraint->SetPoints(coordinates);
+    this->Constraint->SetPoints(coordinates); // which ends the preview
     END_UNDO_SET();
     if (pqPipelineSource* source = pqActiveObjects::instance().activeSource())
     {
       source->setModifiedState(pqProxy::UNMODIFIED);
     }
-    if (auto* filter = vtkSMSourceProxy::SafeDownCast(this->Constraint->GetFilter()))
+    if (filter)
     {
       pqQuadrilleRun::instance()->start(filter, pqQuadrilleRun::undoIfStopped);
     }

@@ -4,6 +4,7 @@
 #define pqQuadrilleHandles_h
 
 #include "DrawnLine.h"
+#include "SurfaceUnderMouse.h"
 
 #include "vtkWeakPointer.h"
 
@@ -51,8 +52,8 @@ private:
   bool onMove(vtkObject*, unsigned long, void*);
   bool onRelease(vtkObject*, unsigned long, void*);
 
-  /// The point whose ring is under the mouse, where it is not behind what is seen.
-  std::optional<std::size_t> pointUnderMouse(vtkSMSourceProxy* filter) const;
+  /// Takes up the point whose ring is under the mouse, where it is not behind what is seen.
+  std::optional<std::size_t> grasp(vtkSMSourceProxy* filter);
   void glide();
   void finish();
 
@@ -67,6 +68,8 @@ private:
 
   std::vector<quadrille::Place> Points;
   std::optional<std::size_t> Dragged;
+  std::optional<quadrille::HeldSurface>
+    Surface; ///< that it glides on, as it was when it was pressed
   bool HasMoved = false;
   bool IsBusy = false;    ///< what was dragged is being applied
   bool IsReleased = true; ///< the button

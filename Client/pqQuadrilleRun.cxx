@@ -106,17 +106,25 @@ void pqQuadrilleRun::startPreview(vtkSMSourceProxy* filter, Then then)
 }
 
 //-----------------------------------------------------------------------------
-void pqQuadrilleRun::dropPreview(vtkSMSourceProxy* filter)
+void pqQuadrilleRun::follow(vtkSMSourceProxy* filter)
 {
-  if (this->Filter == filter)
-  {
-    this->Waiting.clear();
-    this->end(End::Stopped);
-  }
-  invoke(filter, "StopUnderway");
-  invoke(filter, "TakeUnderway");
-  update(filter); // a look-up
-  renderActive();
+  prepare(filter);
+  QTimer::singleShot(0, this,
+    [this, executed = vtkWeakPointer<vtkSMSourceProxy>(filter)]
+    {
+      if (!executed || this->Filter == executed)
+      {
+        return;
+      }
+      if (ask(executed, "GetIsToBeTaken") != 0)
+      {
+        this->start(executed, undoIfStopped);
+      }
+      else
+      {
+        invoke(executed, "SetInBackground", 0);
+      }
+    });
 }
 
 //-----------------------------------------------------------------------------

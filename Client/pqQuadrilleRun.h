@@ -47,9 +47,8 @@ public:
   void start(vtkSMSourceProxy* filter, Then then);
   /// The same for a preview, of which the status bar tells nothing, and which Escape does not stop.
   void startPreview(vtkSMSourceProxy* filter, Then then);
-
-  /// Ends a preview at once, without a picture of it: the quads of the filter are those of its properties again.
-  void dropPreview(vtkSMSourceProxy* filter);
+  /// What ParaView is about to execute the filter for becomes such a run, too, if it executes it at all.
+  void follow(vtkSMSourceProxy* filter);
 
   bool isUnderway() const { return this->Filter != nullptr; }
   void stop();

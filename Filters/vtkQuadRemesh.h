@@ -561,6 +561,8 @@ public:
 
   /// Whether a run in the background has not ended; how far it is, in hundredths; asks it to end, which it does soon.
   vtkTypeBool GetIsUnderway() const;
+  /// Whether there is such a run, ended or not, whose outputs the next execution is to make.
+  vtkTypeBool GetIsToBeTaken() const { return this->Background ? 1 : 0; }
   int GetUnderwayProgress() const;
   void StopUnderway();
   /// Switches InBackground off, and lets the next execution take what was made, waiting for it where it is not over.

@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadSurfacePick.h"
 
-#include "vtkAlgorithm.h"
 #include "vtkCell.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
-#include "vtkExtractSelection.h"
 #include "vtkIdList.h"
 #include "vtkMath.h"
 #include "vtkMultiProcessController.h"
@@ -143,26 +139,6 @@ vtkQuadSurfacePick::vtkQuadSurfacePick()
 vtkQuadSurfacePick::~vtkQuadSurfacePick() = default;
 
 //------------------------------------------------------------------------------
-void vtkQuadSurfacePick::SetInput(vtkAlgorithm* input)
-{
-  if (this->Input != input)
-  {
-    this->Input = input;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadSurfacePick::SetSelection(vtkAlgorithm* selection)
-{
-  if (this->Selection != selection)
-  {
-    this->Selection = selection;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
 void vtkQuadSurfacePick::PickCell(vtkDataSet* selected)
 {
   vtkCell* cell = selected->GetCell(0);
@@ -198,23 +174,18 @@ void vtkQuadSurfacePick::PickCell(vtkDataSet* selected)
 }
 
 //------------------------------------------------------------------------------
-bool vtkQuadSurfacePick::PickFrom(vtkDataSet* selected)
+void vtkQuadSurfacePick::PickFrom(vtkDataSet* selected)
 {
-  if (!selected || selected->GetNumberOfCells() == 0)
-  {
-    return false;
-  }
   if (!this->SnapOnMeshPoint)
   {
     this->PickCell(selected);
-    return true;
+    return;
   }
   selected->GetPoint(0, this->Intersection);
   if (vtkDataArray* normals = selected->GetPointData()->GetNormals())
   {
     normals->GetTuple(0, this->IntersectionNormal);
   }
-  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -222,29 +193,16 @@ void vtkQuadSurfacePick::ComputeIntersection()
 {
   forget(this->Intersection);
   forget(this->IntersectionNormal);
-  if (!this->Input || !this->Selection ||
-    vtkMath::Distance2BetweenPoints(this->PointA, this->PointB) == 0)
+  if (!this->IsComplete() || vtkMath::Distance2BetweenPoints(this->PointA, this->PointB) == 0)
   {
     return;
   }
-  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
-  vtkNew<vtkExtractSelection> extract;
-  extract->SetInputConnection(0, this->Input->GetOutputPort(0));
-  extract->SetInputConnection(1, this->Selection->GetOutputPort(0));
-  extract->UpdatePiece(
-    ranks ? ranks->GetLocalProcessId() : 0, ranks ? ranks->GetNumberOfProcesses() : 1, 0);
-  vtkDataObject* selected = extract->GetOutputDataObject(0);
-  bool isFound = this->PickFrom(vtkDataSet::SafeDownCast(selected));
-  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(selected))
+  const std::vector<vtkSmartPointer<vtkDataSet>> selected = this->GetSelected();
+  if (!selected.empty())
   {
-    auto iterator = vtk::TakeSmartPointer(blocks->NewIterator());
-    for (iterator->InitTraversal(); !isFound && !iterator->IsDoneWithTraversal();
-         iterator->GoToNextItem())
-    {
-      isFound = this->PickFrom(vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()));
-    }
+    this->PickFrom(selected.front());
   }
-  this->Share(isFound);
+  this->Share(!selected.empty());
 }
 
 //------------------------------------------------------------------------------

@@ -11,31 +11,22 @@
  * (0, 0, 0) for the place, 5.13 nothing but an error. This class stands in for ParaView's own in that proxy: where the
  * ray passes beside the cell it gives the place of the cell nearest to the ray.
  *
- * Input has the cell, or the point, in its first output; ParaView does not tell of which output the cell was drawn.
+ * Input has the cell, or the point, that is selected in its first output; ParaView does not tell of which output the cell was drawn.
  */
 #ifndef vtkQuadSurfacePick_h
 #define vtkQuadSurfacePick_h
 
-#include "QuadrilleFiltersModule.h" // for the export macro
-#include "vtkObject.h"
-#include "vtkSmartPointer.h" // for the inputs
+#include "vtkQuadSurfaceQuery.h"
 
-class vtkAlgorithm;
 class vtkCell;
 class vtkDataSet;
 
-class QUADRILLEFILTERS_EXPORT vtkQuadSurfacePick : public vtkObject
+class QUADRILLEFILTERS_EXPORT vtkQuadSurfacePick : public vtkQuadSurfaceQuery
 {
 public:
   static vtkQuadSurfacePick* New();
-  vtkTypeMacro(vtkQuadSurfacePick, vtkObject);
+  vtkTypeMacro(vtkQuadSurfacePick, vtkQuadSurfaceQuery);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /// What the selection is of, and what gives the selection: of one cell, or one point.
-  void SetInput(vtkAlgorithm* input);
-  void SetSelection(vtkAlgorithm* selection);
-  ///@}
 
   ///@{
   /// The ray, from the near end to the far one. At first (0, 0, 0) and (0, 0, 1).
@@ -68,12 +59,10 @@ private:
   vtkQuadSurfacePick(const vtkQuadSurfacePick&) = delete;
   void operator=(const vtkQuadSurfacePick&) = delete;
 
-  bool PickFrom(vtkDataSet* selected);
+  void PickFrom(vtkDataSet* selected);
   void PickCell(vtkDataSet* selected);
   void Share(bool isFound);
 
-  vtkSmartPointer<vtkAlgorithm> Input;
-  vtkSmartPointer<vtkAlgorithm> Selection;
   double PointA[3] = { 0, 0, 0 };
   double PointB[3] = { 0, 0, 1 };
   bool SnapOnMeshPoint = false;

@@ -2,16 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadSurfacePlaces.h"
 
-#include "vtkAlgorithm.h"
 #include "vtkCommunicator.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
-#include "vtkExtractSelection.h"
 #include "vtkMultiProcessController.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkStaticCellLocator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,21 +17,22 @@ namespace
 {
 
 constexpr double kTolerance =
-  1e-5; // of the size of what is selected: rays to a vertex would slip between its cells
+  1e-5; // of the size of the cells: rays to a vertex would slip between them
 constexpr double kNone = std::numeric_limits<double>::infinity();
+
+vtkSmartPointer<vtkStaticCellLocator> locatorOf(vtkDataSet* cells)
+{
+  auto locator = vtkSmartPointer<vtkStaticCellLocator>::New();
+  locator->SetDataSet(cells);
+  locator->BuildLocator();
+  return locator;
+}
 
 /// Where each ray first hits the cells, as the share of its length; what is nearer already stays.
 template <class Rays>
-void shorten(std::vector<double>& hits, const Rays& rays, vtkDataSet* cells)
+void shorten(std::vector<double>& hits, const Rays& rays, vtkStaticCellLocator* locator)
 {
-  if (!cells || cells->GetNumberOfCells() == 0)
-  {
-    return;
-  }
-  vtkNew<vtkStaticCellLocator> locator;
-  locator->SetDataSet(cells);
-  locator->BuildLocator();
-  const double tolerance = kTolerance * cells->GetLength();
+  const double tolerance = kTolerance * locator->GetDataSet()->GetLength();
   for (std::size_t i = 0; i < rays.size(); ++i)
   {
     double share = 0, place[3], local[3];
@@ -55,26 +50,6 @@ void shorten(std::vector<double>& hits, const Rays& rays, vtkDataSet* cells)
 vtkQuadSurfacePlaces::vtkQuadSurfacePlaces() : Places(vtkSmartPointer<vtkDoubleArray>::New()) {}
 
 vtkQuadSurfacePlaces::~vtkQuadSurfacePlaces() = default;
-
-//------------------------------------------------------------------------------
-void vtkQuadSurfacePlaces::SetInput(vtkAlgorithm* input)
-{
-  if (this->Input != input)
-  {
-    this->Input = input;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadSurfacePlaces::SetSelection(vtkAlgorithm* selection)
-{
-  if (this->Selection != selection)
-  {
-    this->Selection = selection;
-    this->Modified();
-  }
-}
 
 //------------------------------------------------------------------------------
 void vtkQuadSurfacePlaces::SetNumberOfRays(vtkIdType number)
@@ -101,27 +76,33 @@ void vtkQuadSurfacePlaces::SetRay(
 }
 
 //------------------------------------------------------------------------------
+void vtkQuadSurfacePlaces::Hold()
+{
+  this->IsHeld = true;
+  this->Held.clear();
+  for (vtkDataSet* cells : this->GetAll())
+  {
+    this->Held.push_back(locatorOf(cells));
+  }
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
 std::vector<double> vtkQuadSurfacePlaces::HitsOfThisRank()
 {
   std::vector<double> hits(this->Rays.size(), kNone);
-  if (!this->Input || !this->Selection)
+  if (this->IsHeld)
   {
-    return hits;
-  }
-  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
-  vtkNew<vtkExtractSelection> extract;
-  extract->SetInputConnection(0, this->Input->GetOutputPort(0));
-  extract->SetInputConnection(1, this->Selection->GetOutputPort(0));
-  extract->UpdatePiece(
-    ranks ? ranks->GetLocalProcessId() : 0, ranks ? ranks->GetNumberOfProcesses() : 1, 0);
-  vtkDataObject* selected = extract->GetOutputDataObject(0);
-  shorten(hits, this->Rays, vtkDataSet::SafeDownCast(selected));
-  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(selected))
-  {
-    auto iterator = vtk::TakeSmartPointer(blocks->NewIterator());
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    for (vtkStaticCellLocator* locator : this->Held)
     {
-      shorten(hits, this->Rays, vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()));
+      shorten(hits, this->Rays, locator);
+    }
+  }
+  else if (this->IsComplete())
+  {
+    for (vtkDataSet* cells : this->GetSelected())
+    {
+      shorten(hits, this->Rays, locatorOf(cells));
     }
   }
   return hits;

@@ -2,39 +2,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkQuadSurfacePlaces
- * @brief   the places of a surface that rays of the mouse hit, among cells that are selected
+ * @brief   the places of a surface that rays of the mouse hit, among cells that are selected or are held
  *
  * The drawing tools of ParaView's window select what a view shows in a rectangle, and ask here for the places under the
- * pixels of a line in it, all at once: one selection and one search, however many pixels. With more than one rank all
- * have to call Compute(), and all have the same places then.
+ * pixels of a line in it, all at once: one selection and one search, however many pixels. A selection draws the view;
+ * so while something is dragged, and quads come and go, they ask for places of the surface as it was held when the drag
+ * began. With more than one rank all have to call Hold() and Compute(), and all have the same places then.
  *
  * @sa vtkQuadSurfacePick
  */
 #ifndef vtkQuadSurfacePlaces_h
 #define vtkQuadSurfacePlaces_h
 
-#include "QuadrilleFiltersModule.h" // for the export macro
-#include "vtkDoubleArray.h"         // for the places
-#include "vtkObject.h"
-#include "vtkSmartPointer.h" // for the inputs
+#include "vtkDoubleArray.h" // for the places
+#include "vtkQuadSurfaceQuery.h"
+#include "vtkStaticCellLocator.h" // for what is held
 
-#include <array>  // for the rays
-#include <vector> // for the rays
+#include <array> // for the rays
 
-class vtkAlgorithm;
-
-class QUADRILLEFILTERS_EXPORT vtkQuadSurfacePlaces : public vtkObject
+class QUADRILLEFILTERS_EXPORT vtkQuadSurfacePlaces : public vtkQuadSurfaceQuery
 {
 public:
   static vtkQuadSurfacePlaces* New();
-  vtkTypeMacro(vtkQuadSurfacePlaces, vtkObject);
+  vtkTypeMacro(vtkQuadSurfacePlaces, vtkQuadSurfaceQuery);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /// What the selection is of, and what gives the selection: cells of the first output of the input.
-  void SetInput(vtkAlgorithm* input);
-  void SetSelection(vtkAlgorithm* selection);
-  ///@}
+  /// Takes the whole first output of the input as it is now, in place of what is selected.
+  void Hold();
 
   ///@{
   /// The rays, from their near end a to their far end b. At first there is none.
@@ -58,8 +52,8 @@ private:
   using Ray = std::array<double, 6>;
   std::vector<double> HitsOfThisRank();
 
-  vtkSmartPointer<vtkAlgorithm> Input;
-  vtkSmartPointer<vtkAlgorithm> Selection;
+  std::vector<vtkSmartPointer<vtkStaticCellLocator>> Held;
+  bool IsHeld = false;
   std::vector<Ray> Rays;
   vtkSmartPointer<vtkDoubleArray> Places;
 };

@@ -26,9 +26,8 @@ void PreparedRun::make()
   }
 }
 
-BackgroundRun::BackgroundRun(
-  std::unique_ptr<PreparedRun> run, EarlierResult wanted, double timeLimit,
-  std::unique_ptr<BackgroundRun> before)
+BackgroundRun::BackgroundRun(std::unique_ptr<PreparedRun> run, EarlierResult wanted,
+  double timeLimit, std::unique_ptr<BackgroundRun> before)
   : run_(std::move(run)), wanted_(std::move(wanted)), before_(std::move(before)),
     thread_([this, timeLimit] { work(timeLimit); })
 {

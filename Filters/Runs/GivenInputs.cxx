@@ -41,8 +41,7 @@ void tellUnusedArrays(const GivenInputs& inputs, std::vector<ToldOfInputs>& told
     all.push_back(array);
   }
   warn(6, "the constraints", all);
-  for (const std::string& notice :
-    partnerNotices(inputs.port(0), inputs.port(1), inputs.port(2)))
+  for (const std::string& notice : partnerNotices(inputs.port(0), inputs.port(1), inputs.port(2)))
   {
     told.push_back({ notice, true });
   }
@@ -104,8 +103,8 @@ ConvertedSurface readInputs(
     constraints.sameWithin = kOnePlace *
       targetEdgeLength(inputs.options, areaOfPolygons(surface.input), diagonalOf(surface.input));
   }
-  asked.arrays = arrayConstraints(
-    surface.input, [&surface](Index polygon) { return surface.cell(polygon); });
+  asked.arrays =
+    arrayConstraints(surface.input, [&surface](Index polygon) { return surface.cell(polygon); });
   PlacedConstraints result = applyConstraints(surface, constraints);
   for (const std::string& notice : result.notices)
   {

@@ -133,10 +133,12 @@ TEST(QuadsInBackground, LeaveTheOutputsAsTheyWereUntilTheyAreTaken)
   filter->SetNumberOfQuads(900);
   filter->Update();
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Underway);
+  EXPECT_TRUE(filter->GetIsToBeTaken());
   EXPECT_EQ(placesOf(filter->GetOutput()), before);
   EXPECT_GT(filter->GetRememberedMegabytes(), 0);
   filter->TakeUnderway();
   filter->Update(); // waits
+  EXPECT_FALSE(filter->GetIsToBeTaken());
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
   EXPECT_NE(placesOf(filter->GetOutput()), before);
 }
@@ -190,7 +192,8 @@ TEST(QuadsInBackground, ThatAreLeftHoldNothingUp)
   filter->Update();
   const std::vector<double> before = placesOf(filter->GetOutput());
   filter->SetInBackground(1);
-  for (const vtkIdType quads : { 20000, 30000, 25000 }) // each waits for the one before, but not here
+  for (const vtkIdType quads :
+    { 20000, 30000, 25000 }) // each waits for the one before, but not here
   {
     filter->SetNumberOfQuads(quads);
     filter->Update();

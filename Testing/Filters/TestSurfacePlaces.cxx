@@ -79,6 +79,24 @@ TEST(SurfacePlaces, RaysDoNotSlipThroughAtAVertex)
   }
 }
 
+TEST(SurfacePlaces, OfASurfaceThatIsHeldStayWhereTheyAre)
+{
+  Squares squares({});
+  squares.plane->Update();
+  squares.places->Hold();
+  squares.plane->SetCenter(1, 1, -2);
+  squares.plane->Update();
+  squares.places->SetNumberOfRays(2);
+  squares.drop(0, 1.5, 0.5);
+  squares.drop(1, 2.5, 0.5);
+  squares.places->Compute();
+  EXPECT_NEAR(squares.at(0, 2), 0, 1e-12);
+  EXPECT_TRUE(std::isnan(squares.at(1, 0)));
+  squares.places->Hold();
+  squares.places->Compute();
+  EXPECT_NEAR(squares.at(0, 2), -2, 1e-12);
+}
+
 TEST(SurfacePlaces, WithoutASelectionThereIsNoPlace)
 {
   vtkNew<vtkQuadSurfacePlaces> places;

@@ -66,6 +66,10 @@ class Session(count_actions.Window):
     def middle(self):
         return self.origin[0] + 400, self.origin[1] - 300
 
+    def apply(self):
+        super().apply()
+        self.wait_until("is_made()", seconds=180)  # in the background
+
     def open_surface(self):
         """File > Open, Apply."""
         self.xdotool("mousemove", *self.middle(), "key", "ctrl+o", "sleep", 2)
