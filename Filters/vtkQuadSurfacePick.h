@@ -11,7 +11,8 @@
  * (0, 0, 0) for the place, 5.13 nothing but an error. This class stands in for ParaView's own in that proxy: where the
  * ray passes beside the cell it gives the place of the cell nearest to the ray.
  *
- * Input has the cell, or the point, that is selected in its first output; ParaView does not tell of which output the cell was drawn.
+ * Input has the cell, or the point, that is selected in its first output; ParaView does not tell of which output the
+ * cell was drawn.
  */
 #ifndef vtkQuadSurfacePick_h
 #define vtkQuadSurfacePick_h

@@ -42,8 +42,8 @@ struct Underway : std::exception
   const char* what() const noexcept override { return "the quads are being made"; }
 };
 
-/// Begins with the object, after a run that it takes the place of has ended, and is stopped with it. Only the thread of whoever made it may ask; nobody else may touch
-/// the run, nor what it points to, before it is over.
+/// Begins with the object, after a run that it takes the place of has ended, and is stopped with it. Only the thread of
+/// whoever made it may ask; nobody else may touch the run, nor what it points to, before it is over.
 class BackgroundRun
 {
 public:

@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What ParaView's real window shows of inputs that cannot have quads, or not everywhere.
+
+  failing_inputs.py XVFB PARAVIEW OPENBOX [FILE[:QUADS]...]
+
+Opens each file by keyboard, asks for so many quads, and looks: something is seen in the view; where quads are missing
+or inverted a place is marked; the first 80 characters of the verdict say what to do; where that is a property the
+button Apply mends it. Without files the script makes its own: no surface, not a number, degenerate, non-manifold, other
+cells than polygons. What is wrong is told with BAD. Screenshots are left in the folder QUADRILLE_ARTIFACTS. No test of
+ctest, as larger ones need files of their own.
+"""
+import argparse
+import math
+import pathlib
+import re
+import tempfile
+
+import test_places
+import test_problems
+
+SEEN = 3000  # pixels
+FIRST = 80   # characters
+PRESSES = 3  # of Apply, each of which halves the length of the quads' edges
+#: What a user is told to do begins with one of these.
+TO_DO = re.compile(r"\b(ask for|use|set|switch|raise|repair|triangulate|correct|take|free|remove|make|choose|allow|load|"
+                   r"open|give|connect|see|show)\b", re.IGNORECASE)
+
+
+def legacy(path, points, cells, kind="POLYGONS", more=""):
+    size = len(cells) + sum(len(c) for c in cells)
+    path.write_text("# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n"
+                    f"POINTS {len(points)} double\n" + "".join(f"{p[0]} {p[1]} {p[2]}\n" for p in points)
+                    + (f"{kind} {len(cells)} {size}\n" if cells else "")
+                    + "".join(f"{len(c)} {' '.join(map(str, c))}\n" for c in cells) + more, encoding="utf-8")
+    return path
+
+
+def grid(n, height=lambda x, y: 0):
+    points = [(x, y, height(x, y)) for y in range(n + 1) for x in range(n + 1)]
+    corner = lambda x, y: y * (n + 1) + x
+    cells = [t for y in range(n) for x in range(n)
+             for t in ((corner(x, y), corner(x + 1, y), corner(x + 1, y + 1)),
+                       (corner(x, y), corner(x + 1, y + 1), corner(x, y + 1)))]
+    return points, cells
+
+
+def own_files(folder):
+    points, cells = grid(12)
+    yield legacy(folder / "points_only.vtk", points, [[i] for i in range(len(points))], "VERTICES"), 200
+    yield legacy(folder / "lines_only.vtk", points, [[i, i + 1] for i in range(12)], "LINES"), 200
+    broken = list(points)
+    broken[40] = ("nan", 3, 0)
+    yield legacy(folder / "not_a_number.vtk", broken, cells), 200
+    yield legacy(folder / "all_degenerate.vtk", [(x, 0, 0) for x, _, _ in points], cells), 200
+    yield legacy(folder / "one_point.vtk", [(0, 0, 0)] * len(points), cells), 200
+    fins = points + [(6, y, 5) for y in range(13)]
+    more = [t for y in range(12) for t in ((13 * y + 6, 13 * y + 19, 169 + y), (13 * y + 19, 170 + y, 169 + y))]
+    yield legacy(folder / "three_sheets.vtk", fins, cells + more), 200
+    yield legacy(folder / "polygons.vtk", [(math.cos(k / 5), math.sin(k / 5), 0) for k in range(31)],
+                 [list(range(31))]), 200
+    yield legacy(folder / "huge_places.vtk", [(x * 1e300, y * 1e300, z) for x, y, z in points], cells), 200
+    yield legacy(folder / "too_many.vtk", points, cells), 20000000
+    asked = "CELL_DATA %d\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n" % len(cells) + "7\n" * len(cells)
+    yield legacy(folder / "all_features.vtk", points, cells, more=asked), 4
+    yield legacy(folder / "wrong_array.vtk", points, cells,
+                 more="POINT_DATA %d\nSCALARS TargetValence double 1\nLOOKUP_TABLE default\n" % len(points)
+                 + "9\n" * len(points)), 200
+
+
+class Session(test_places.Session):
+    def shows(self):
+        """Pixels that are not the background's, and those that mark a place."""
+        return sum(test_problems.colours(self).values()), test_problems.marks(self)
+
+    def state(self):
+        return self.value("(output(0).GetNumberOfCells(), output(8).GetNumberOfCells(), output(8).GetNumberOfVerts(), "
+                          "quads().GetPropertyValue('Verdict') or '', quads().GetPropertyValue('Remedy') or '', "
+                          "quads().GetPropertyValue('OutcomeText') or '')")
+
+
+def judge(session, name):
+    """What is wrong with what is seen and told."""
+    quads, problems, _, verdict, remedy, outcome = session.state()
+    seen, marked = session.shows()
+    bad = []
+    if seen < SEEN and session.value("has_surface()"):
+        bad.append(f"only {seen} pixels are seen")
+    if (outcome or problems) and session.value("has_surface()") and marked < 10:
+        bad.append("no place is marked")
+    first = verdict.replace("\n", " ")[:FIRST]
+    if (outcome or problems) and not TO_DO.search(first):
+        bad.append("nothing to do in what is told first")
+    print(f"{name}: {quads} quads, {problems} problems, {seen} pixels, {marked} marked, remedy '{remedy}'; {first!r}"
+          f"{'  BAD: ' + '; '.join(bad) if bad else ''}", flush=True)
+    return bad, remedy
+
+
+def try_input(session, path, quads):
+    session.surface = path
+    session.ask("for source in list(simple.GetSources().values()): simple.Delete(source)")
+    session.open_surface()
+    session.ask("simple.ResetCamera(view)\ndef has_surface():\n    data = simple.GetActiveSource()\n"
+                "    source = quads().Input\n    info = source.GetDataInformation()\n"
+                "    b = info.GetBounds()\n    return info.GetNumberOfCells() > 0 and b[0] <= b[1] and b[1] - b[0] < 1e200")
+    session.new("Quad Remesh")
+    session.ask(f"quads().NumberOfQuads = {quads}")
+    session.apply()
+    session.wait_until("quads() is not None and (quads().GetPropertyValue('Verdict') or '') != ''", seconds=120)
+    session.find_origin()
+    bad, remedy = judge(session, f"{path.name} {quads}")
+    session.shot(f"failing-{path.stem}-{quads}")
+    presses = 0
+    while remedy and presses < PRESSES:
+        presses += 1
+        test_problems.press_under_verdict(session, 1 if session.state()[1] else 0)
+        now = session.state()[4]
+        if now == remedy:
+            bad.append("Apply changed nothing")
+            break
+        remedy = now
+    if presses:
+        more, _ = judge(session, f"  after {presses} of Apply")
+        bad += more if remedy == "" else []
+        session.shot(f"failing-{path.stem}-{quads}-applied")
+    return bad
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    for program in ("xvfb", "paraview", "openbox"):
+        parser.add_argument(program)
+    parser.add_argument("files", nargs="*")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        inputs = [(pathlib.Path(name.partition(":")[0]), int(name.partition(":")[2] or 200)) for name in options.files]
+        inputs = inputs or list(own_files(folder))
+        session = Session(folder, options)
+        bad = 0
+        try:
+            session.start()
+            for path, quads in inputs:
+                bad += bool(try_input(session, path, quads))
+        except BaseException:
+            session.shot("failing-stopped")
+            print((folder / "log").read_text(encoding="utf-8")[-3000:])
+            raise
+        finally:
+            session.close()
+    print(f"{len(inputs) - bad} of {len(inputs)} inputs are fine")
+
+
+if __name__ == "__main__":
+    main()
