@@ -151,7 +151,10 @@ private:
     options.threads = threads_;
     for (const ValenceRequest& request : result_.surface.valenceRequests)
     {
-      options.fixedVertices.push_back(request.vertex);
+      if (!request.mayDrift)
+      {
+        options.fixedVertices.push_back(request.vertex);
+      }
     }
     if (met_.strips > 0)
     {

@@ -368,8 +368,7 @@ ExtractionResult extractQuads(
       untangleQuads(mesh, result.mesh, { options.fixedVertices, options.threads });
       if (options.replacesBad)
       {
-        repairQuads(
-          mesh, result.mesh, options.fixedVertices, options.threads, options.keepsIrregular);
+        repairQuads(mesh, result.mesh, options.fixedVertices, options.threads);
       }
     }
   }

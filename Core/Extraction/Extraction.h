@@ -46,8 +46,6 @@ struct ExtractionOptions
   int smoothingSteps = 5;
   /// Whether bad quads that this leaves are replaced by others (see QuadRepair.h).
   bool replacesBad = true;
-  /// Of these only inverted ones: no vertex may become irregular that the map does not have so.
-  bool keepsIrregular = false;
   /// Vertices of the mesh, ascending, whose quad vertices smoothing must not move (irregular ones that were asked for).
   std::vector<Index> fixedVertices;
   std::vector<FaceGuide> guides; ///< see SmoothingOptions

@@ -34,9 +34,8 @@ using Quad = QuadChanges::Quad;
 class QuadRepair
 {
 public:
-  QuadRepair(
-    const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices, bool onlyInverted)
-    : patches_(mesh, quads, fixedVertices), onlyInverted_(onlyInverted)
+  QuadRepair(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices)
+    : patches_(mesh, quads, fixedVertices)
   {
   }
 
@@ -105,7 +104,7 @@ private:
     relaxQuads(best, *patch->ground, kSweepsOfRepair);
     QuadScore reached = scoreOf(best);
     const QuadScore before = scoreOf(patch->own);
-    bool isDone = reached.bad == 0 || (onlyInverted_ && before.inverted == 0);
+    bool isDone = reached.bad == 0;
     FaceQuads tried = patch->own; // gets new points while they are tried
     QuadChanges changes(tried,
       [&](const QuadChanges::Change& change)
@@ -142,13 +141,12 @@ private:
   }
 
   QuadPatches patches_;
-  bool onlyInverted_;
 };
 
 } // namespace
 
-void repairQuads(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices,
-  int threads, bool onlyInverted)
+void repairQuads(
+  const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices, int threads)
 {
   // The worst first: what is changed for one is not changed for another in the same round.
   const auto badQuads = [&quads]
@@ -172,7 +170,7 @@ void repairQuads(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fi
   for (int round = 0; round < kRoundsOfRepair && !bad.empty() && quads.polygonOffsets.empty();
        ++round)
   {
-    if (!QuadRepair(mesh, quads, fixedVertices, onlyInverted).run(bad))
+    if (!QuadRepair(mesh, quads, fixedVertices).run(bad))
     {
       break;
     }

@@ -15,9 +15,8 @@ namespace quadrille
 /// Changes quads round those with a scaled Jacobian below 0.1, between the lines of the mesh, and moves points there,
 /// where fewer are inverted then, or as many and fewer are bad. Lines and points on them stay, and so do all quads at
 /// fixedVertices (of the mesh, ascending). The quads must be a manifold that lies on the mesh; where there are
-/// polygons, nothing is done. New quads have no place in the map (QuadMesh::quadSourceWeights). onlyInverted: others
-/// keep their edges, as every other edge makes vertices irregular or regular.
-void repairQuads(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices,
-  int threads = 1, bool onlyInverted = false);
+/// polygons, nothing is done. New quads have no place in the map (QuadMesh::quadSourceWeights).
+void repairQuads(
+  const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices, int threads = 1);
 
 } // namespace quadrille

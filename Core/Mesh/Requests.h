@@ -64,6 +64,7 @@ struct ValenceRequest
   Index vertex = kInvalidIndex;
   int valence = kRegularValence;
   Index point = kInvalidIndex; ///< of the input
+  bool mayDrift = false;       ///< see ValencePlace
 };
 
 /// What becomes of a curve.
@@ -178,10 +179,12 @@ struct ValencePlace
 {
   Vector3 place = Vector3::Zero();
   int valence = kRegularValence;
+  /// The vertex of the quads may be smoothed away from the place, as vertices are that nobody asked for.
+  bool mayDrift = false;
 
   bool operator==(const ValencePlace& other) const
   {
-    return place == other.place && valence == other.valence;
+    return place == other.place && valence == other.valence && mayDrift == other.mayDrift;
   }
 };
 

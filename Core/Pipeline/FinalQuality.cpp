@@ -86,7 +86,7 @@ InvertedQuads invertedQuadsOf(const PreparedSurface& surface, const std::vector<
   ExtractionOptions extraction;
   extraction.maximumNumberOfQuads = options.maximumNumberOfQuads;
   extraction.smoothingSteps = options.smoothingSteps;
-  extraction.fixedVertices = indexVertices(surface);
+  extraction.fixedVertices = heldIndexVertices(surface);
   extraction.threads = options.threads;
   const ExtractionResult quads = extractQuads(surface.mesh, uv, extraction);
   InvertedQuads result;

@@ -85,7 +85,7 @@ void improve(RunContext& run, const PlannedSurface& surface, const Plan& plan, M
 /// Where the map on the surface is not valid everywhere, what was asked for may be lost: that is told.
 std::string missedValencesText(const PreparedSurface& surface, const QuadMesh& quads)
 {
-  const std::vector<Index> vertices = indexVertices(surface);
+  const std::vector<Index> vertices = heldIndexVertices(surface);
   std::vector<int> valence(vertices.empty() ? 0 : surface.mesh.vertexCount(), 0);
   for (Index p = 0; p < quads.points.size() && !valence.empty(); ++p)
   {
@@ -98,7 +98,8 @@ std::string missedValencesText(const PreparedSurface& surface, const QuadMesh& q
   std::vector<ValenceRequest> missed;
   for (const ValenceRequest& request : surface.valenceRequests)
   {
-    if (request.valence != kRegularValence && valence[request.vertex] != request.valence)
+    if (request.valence != kRegularValence && !request.mayDrift &&
+      valence[request.vertex] != request.valence)
     {
       missed.push_back(request);
     }
@@ -192,7 +193,7 @@ std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<F
 /// Irregular vertices that were asked for, and those that connections join.
 std::vector<Index> verticesThatStay(const PreparedSurface& surface, const MapAttempt& map)
 {
-  std::vector<Index> vertices = indexVertices(surface);
+  std::vector<Index> vertices = heldIndexVertices(surface);
   for (const CurveOutcome& curve : map.curves)
   {
     for (const Index v : { curve.from, curve.to })
@@ -227,7 +228,6 @@ void extractOnSurface(
   options.guides = map.guides;
   // Else quads of the curves' chains could go. Of the coarsest ones each is a patch of a layout, whatever its shape.
   options.replacesBad = map.curves.empty() && !run.options.coarsestIntegers && !run.hasBeside;
-  options.keepsIrregular = surface->regularElsewhere;
   options.mapIsCertified = map.certificate.valid();
   options.shape = shape.get();
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");

@@ -45,7 +45,7 @@ ResultKey requestsKey(const SurfaceInput& input)
   key.add(input.guideDirections, input.guideWeights, input.guideOrders, input.targetValences);
   for (const ValencePlace& asked : input.drawn.valences)
   {
-    key.add(asked.place, asked.valence);
+    key.add(asked.place, asked.valence, asked.mayDrift);
   }
   for (const StrokeRequest& stroke : input.drawn.strokes)
   {
@@ -74,7 +74,7 @@ ResultKey requestsKey(const SurfaceRequests& requests)
   }
   for (const ValenceRequest& request : requests.valenceRequests)
   {
-    key.add(request.vertex, request.valence);
+    key.add(request.vertex, request.valence, request.mayDrift);
   }
   for (const SectorRequest& request : requests.sectorRequests)
   {

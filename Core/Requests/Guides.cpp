@@ -314,12 +314,12 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)
   return result;
 }
 
-std::vector<Index> indexVertices(const PreparedSurface& surface)
+std::vector<Index> heldIndexVertices(const PreparedSurface& surface)
 {
   std::vector<Index> vertices;
   for (const ValenceRequest& request : surface.valenceRequests)
   {
-    if (request.valence != kRegularValence)
+    if (request.valence != kRegularValence && !request.mayDrift)
     {
       vertices.push_back(request.vertex);
     }
@@ -329,7 +329,14 @@ std::vector<Index> indexVertices(const PreparedSurface& surface)
 
 std::vector<Index> keptVertices(const PreparedSurface& surface)
 {
-  std::vector<Index> vertices = indexVertices(surface);
+  std::vector<Index> vertices;
+  for (const ValenceRequest& request : surface.valenceRequests)
+  {
+    if (request.valence != kRegularValence)
+    {
+      vertices.push_back(request.vertex);
+    }
+  }
   for (const SectorRequest& request : surface.sectorRequests)
   {
     // Junctions of features stay by themselves.

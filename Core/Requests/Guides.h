@@ -38,11 +38,11 @@ struct SurfaceGuides
 };
 SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads);
 
-/// Vertices that have to be irregular, ascending. They stay on every level; one that is to be regular needs not stay
-/// for that.
-std::vector<Index> indexVertices(const PreparedSurface& surface);
+/// Vertices that have to be irregular and stay where they are when quads are smoothed, ascending.
+std::vector<Index> heldIndexVertices(const PreparedSurface& surface);
 
-/// Those, and the held ones on features: all that have to stay on every level; ascending.
+/// All that have to stay on every level: those that have to be irregular, the held ones on features, and ends of seams
+/// and straight parts; ascending. A vertex that is to be regular needs not stay for that.
 std::vector<Index> keptVertices(const PreparedSurface& surface);
 
 /// Valences asked of the vertices of a level, given by their ids on the finest one; 0 where free. With regularElsewhere

@@ -582,7 +582,9 @@ InsertedValences insertValences(PreparedSurface& surface, const std::vector<Vale
     }
     else
     {
-      byVertex[v] = { v, valences[i].valence };
+      const bool mayDrift =
+        valences[i].mayDrift && (found == byVertex.end() || found->second.mayDrift);
+      byVertex[v] = { v, valences[i].valence, kInvalidIndex, mayDrift };
     }
   }
   surface.valenceRequests.clear();

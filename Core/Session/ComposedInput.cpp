@@ -310,7 +310,7 @@ private:
         (!input.regularElsewhere && list_.changedBy(place) != 0 && !isIrregularInList(place));
       if (isNeeded && askedAt(place) == nullptr)
       {
-        valences.push_back({ place, valence });
+        valences.push_back({ place, valence, list_.changedBy(place) == 0 });
       }
     }
     setIrregular();

@@ -406,8 +406,8 @@ CopiedQuads quadsAcross(
   extraction.maximumNumberOfQuads = options.maximumNumberOfQuads;
   extraction.smoothingSteps = options.smoothingSteps;
   extraction.replacesBad = false; // on both sides alike
-  extraction.fixedVertices = indexVertices(half.surface);
-  for (const Index v : indexVertices(half.surface))
+  extraction.fixedVertices = heldIndexVertices(half.surface);
+  for (const Index v : heldIndexVertices(half.surface))
   {
     extraction.fixedVertices.push_back(whole.image[v]);
   }

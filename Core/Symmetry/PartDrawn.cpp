@@ -156,7 +156,7 @@ private:
   void add(const ValencePlace& place, std::vector<ValencePlace>& asked)
   {
     const int steps = task_.stepsToPart(place.place);
-    ValencePlace image{ task_.isometry.image(place.place, steps), place.valence };
+    ValencePlace image{ task_.isometry.image(place.place, steps), place.valence, place.mayDrift };
     if (task_.isometry.fixes(place.place, task_.tolerance) && !share(place, image.valence))
     {
       return;

@@ -149,27 +149,6 @@ TEST(QuadRepair, LeavesGoodQuadsAndThoseAtFixedVerticesAlone)
   EXPECT_EQ(quads.quads, withFlatCorner(mesh).quads);
 }
 
-// Other edges make vertices irregular, which an operation on others does not ask for.
-TEST(QuadRepair, KeepsEdgesOfQuadsThatAreNotInvertedWhereThatIsAsked)
-{
-  const Mesh mesh = test::gridPlane(kColumns, kRows);
-  QuadMesh bad = withFlatCorner(mesh);
-  // Both flat corners become convex, by a sine of 0.08.
-  bad.points[pointAt(3, 0)].y() -= 0.04;
-  bad.points[pointAt(3, 1)].y() += 0.04;
-  ASSERT_GT(worstOf(bad), 0);
-  ASSERT_LT(worstOf(bad), 0.1);
-  QuadMesh kept = bad;
-  repairQuads(mesh, kept, {}, 1, true);
-  EXPECT_EQ(kept.quads, bad.quads);
-  repairQuads(mesh, bad, {});
-  EXPECT_NE(kept.quads, bad.quads);
-
-  QuadMesh inverted = withFlatCorner(mesh);
-  repairQuads(mesh, inverted, {}, 1, true);
-  EXPECT_GT(worstOf(inverted), 0.3);
-}
-
 TEST(QuadRepair, DoesNotReachAcrossLines)
 {
   const Mesh mesh = test::gridPlane(kColumns, kRows);
