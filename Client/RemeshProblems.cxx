@@ -5,6 +5,8 @@
 #include "FetchedData.h"
 
 #include "vtkCamera.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkIdList.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
@@ -100,8 +102,13 @@ std::vector<Place> verticesOf(vtkSMSourceProxy* filter, int port)
   forEach<vtkPolyData>(fetched(filter, port),
     [&places](vtkPolyData& data)
     {
+      vtkDataArray* kind = data.GetCellData()->GetArray("Problem"); // 0: a vertex of the input
       for (vtkIdType i = 0; i < data.GetNumberOfVerts(); ++i)
       {
+        if (kind && kind->GetComponent(i, 0) == 0)
+        {
+          continue;
+        }
         const vtkIdType* ids = nullptr;
         vtkIdType size = 0;
         data.GetCellPoints(i, size, ids); // vertices come first

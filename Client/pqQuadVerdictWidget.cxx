@@ -201,6 +201,10 @@ void pqQuadVerdictWidget::showNext()
   const std::vector<quadrille::ProblemPlace> places = quadrille::problemPlaces(this->filter());
   if (!view || places.empty())
   {
+    if (view)
+    {
+      view->resetCamera(); // no place is worse than another one
+    }
     return;
   }
   BEGIN_UNDO_EXCLUDE();

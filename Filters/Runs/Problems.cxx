@@ -26,6 +26,16 @@ enum Problem
   kInverted
 };
 
+/// What has no polygons is seen by its lines and vertices.
+void addWithoutPolygons(vtkPolyData* surface, vtkPolyData* data, vtkCellArray* vertices)
+{
+  if (surface->GetNumberOfPolys() + surface->GetNumberOfStrips() == 0)
+  {
+    data->SetLines(surface->GetLines());
+    vertices->Append(surface->GetVerts());
+  }
+}
+
 /// Its polygons and strips, or those of them that are named.
 void addSurface(const Problems& problems, vtkPolyData* data)
 {
@@ -76,6 +86,10 @@ vtkSmartPointer<vtkPolyData> writeProblems(const Problems& problems)
   };
   mark(problems.failed, kFailsHere);
   mark(problems.inverted, kInverted);
+  if (problems.surface && problems.isWhole)
+  {
+    addWithoutPolygons(problems.surface, data, vertices);
+  }
   data->SetPoints(points);
   data->SetVerts(vertices);
   while (kind->GetNumberOfValues() < data->GetNumberOfCells())

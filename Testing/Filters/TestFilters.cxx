@@ -3,6 +3,7 @@
 #include "Convert/PolyData.h"
 #include "TestSurfaces.h"
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDecimationHierarchy.h>
@@ -424,6 +425,28 @@ TEST(QuadRemeshFailure, OneComponentDoesNotTakeTheOthersWithIt)
   problems = countProblems(filter);
   EXPECT_EQ(problems[0], 0);
   EXPECT_GT(problems[1], 0);
+}
+
+TEST(QuadRemeshFailure, ShowsAnInputWithoutPolygons)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::gridPlane(4, 4));
+  vtkNew<vtkCellArray> vertices, lines;
+  vertices->InsertNextCell({ 3 });
+  vertices->InsertNextCell({ 7 });
+  lines->InsertNextCell({ 0, 1, 2 });
+  input->SetPolys(nullptr);
+  input->SetVerts(vertices);
+  input->SetLines(lines);
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, input, 40);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  auto* problems = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(8));
+  EXPECT_EQ(problems->GetNumberOfVerts(), 2);
+  EXPECT_EQ(problems->GetNumberOfLines(), 1);
+  vtkDataArray* kinds = problems->GetCellData()->GetArray("Problem");
+  EXPECT_EQ(kinds->GetNumberOfTuples(), 3);
+  EXPECT_EQ(kinds->GetRange()[1], 0);
 }
 
 TEST(QuadRemeshFailure, ShowsTheInputWhereNothingElseIs)

@@ -14,13 +14,16 @@ import argparse
 import math
 import pathlib
 import re
+import struct
 import tempfile
 
 import test_places
 import test_problems
 
-SEEN = 3000  # pixels
+SEEN = 300  # of every second pixel
+LEGEND, MESSAGES = 180, 280  # pixels at the right and lower end
 FIRST = 80   # characters
+TOO_MANY = 400  # quads, with a limit below that
 PRESSES = 3  # of Apply, each of which halves the length of the quads' edges
 #: What a user is told to do begins with one of these.
 TO_DO = re.compile(r"\b(ask for|use|set|switch|raise|repair|triangulate|correct|take|free|remove|make|choose|allow|load|"
@@ -33,6 +36,15 @@ def legacy(path, points, cells, kind="POLYGONS", more=""):
                     f"POINTS {len(points)} double\n" + "".join(f"{p[0]} {p[1]} {p[2]}\n" for p in points)
                     + (f"{kind} {len(cells)} {size}\n" if cells else "")
                     + "".join(f"{len(c)} {' '.join(map(str, c))}\n" for c in cells) + more, encoding="utf-8")
+    return path
+
+
+def binary_ply(path, points, cells):
+    """VTK's readers of text know no nan."""
+    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"
+            f"property float z\nelement face {len(cells)}\nproperty list uchar int vertex_indices\nend_header\n")
+    path.write_bytes(head.encode() + b"".join(struct.pack("<3f", *p) for p in points)
+                     + b"".join(struct.pack(f"<B{len(c)}i", len(c), *c) for c in cells))
     return path
 
 
@@ -50,8 +62,8 @@ def own_files(folder):
     yield legacy(folder / "points_only.vtk", points, [[i] for i in range(len(points))], "VERTICES"), 200
     yield legacy(folder / "lines_only.vtk", points, [[i, i + 1] for i in range(12)], "LINES"), 200
     broken = list(points)
-    broken[40] = ("nan", 3, 0)
-    yield legacy(folder / "not_a_number.vtk", broken, cells), 200
+    broken[40] = (math.nan, 3, 0)
+    yield binary_ply(folder / "not_a_number.ply", broken, cells), 200
     yield legacy(folder / "all_degenerate.vtk", [(x, 0, 0) for x, _, _ in points], cells), 200
     yield legacy(folder / "one_point.vtk", [(0, 0, 0)] * len(points), cells), 200
     fins = points + [(6, y, 5) for y in range(13)]
@@ -60,7 +72,7 @@ def own_files(folder):
     yield legacy(folder / "polygons.vtk", [(math.cos(k / 5), math.sin(k / 5), 0) for k in range(31)],
                  [list(range(31))]), 200
     yield legacy(folder / "huge_places.vtk", [(x * 1e300, y * 1e300, z) for x, y, z in points], cells), 200
-    yield legacy(folder / "too_many.vtk", points, cells), 20000000
+    yield legacy(folder / "too_many.vtk", points, cells), TOO_MANY
     asked = "CELL_DATA %d\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n" % len(cells) + "7\n" * len(cells)
     yield legacy(folder / "all_features.vtk", points, cells, more=asked), 4
     yield legacy(folder / "wrong_array.vtk", points, cells,
@@ -70,23 +82,33 @@ def own_files(folder):
 
 class Session(test_places.Session):
     def shows(self):
-        """Pixels that are not the background's, and those that mark a place."""
-        return sum(test_problems.colours(self).values()), test_problems.marks(self)
+        """Pixels that are not the background's, and those that mark a place, without legends and messages."""
+        left, bottom = self.origin
+        width, height = self.value("tuple(view.ViewSize)")
+        rows = [row[3 * left:3 * (left + width - LEGEND)] for row in self.rows()[bottom - height + 30:bottom - MESSAGES]]
+        counts = {}
+        for row in rows:
+            for x in range(5, len(row) // 3 - 5, 2):
+                pixel = tuple(row[3 * x:3 * x + 3])
+                counts[pixel] = counts.get(pixel, 0) + 1
+        counts.pop(max(counts, key=counts.get))
+        return sum(counts.values()), sum(n for (r, g, b), n in counts.items()
+                                         if r > 60 and b > 60 and g < min(r, b) / 3)
 
     def state(self):
-        return self.value("(output(0).GetNumberOfCells(), output(8).GetNumberOfCells(), output(8).GetNumberOfVerts(), "
+        return self.value("(output(0).GetNumberOfCells(), output(8).GetNumberOfCells(), marks(), "
                           "quads().GetPropertyValue('Verdict') or '', quads().GetPropertyValue('Remedy') or '', "
                           "quads().GetPropertyValue('OutcomeText') or '')")
 
 
 def judge(session, name):
     """What is wrong with what is seen and told."""
-    quads, problems, _, verdict, remedy, outcome = session.state()
+    quads, problems, marks, verdict, remedy, outcome = session.state()
     seen, marked = session.shows()
     bad = []
     if seen < SEEN and session.value("has_surface()"):
         bad.append(f"only {seen} pixels are seen")
-    if (outcome or problems) and session.value("has_surface()") and marked < 10:
+    if marks > 0 and marked < 10:
         bad.append("no place is marked")
     first = verdict.replace("\n", " ")[:FIRST]
     if (outcome or problems) and not TO_DO.search(first):
@@ -100,11 +122,14 @@ def try_input(session, path, quads):
     session.surface = path
     session.ask("for source in list(simple.GetSources().values()): simple.Delete(source)")
     session.open_surface()
-    session.ask("simple.ResetCamera(view)\ndef has_surface():\n    data = simple.GetActiveSource()\n"
+    session.ask("simple.ResetCamera(view)\ndef marks():\n    kinds = output(8).GetCellData().GetArray('Problem')\n"
+                "    return sum(kinds.GetTuple1(i) != 0 for i in range(output(8).GetNumberOfCells())) if kinds else 0\n"
+                "def has_surface():\n    data = simple.GetActiveSource()\n"
                 "    source = quads().Input\n    info = source.GetDataInformation()\n"
-                "    b = info.GetBounds()\n    return info.GetNumberOfCells() > 0 and b[0] <= b[1] and b[1] - b[0] < 1e200")
+                "    b = info.GetBounds()\n    return info.GetNumberOfCells() > 0 and sum(0 < b[i + 1] - b[i] < 1e200 for i in (0, 2, 4)) > 1")
     session.new("Quad Remesh")
-    session.ask(f"quads().NumberOfQuads = {quads}")
+    session.ask(f"quads().NumberOfQuads = {quads}"
+                + ("; quads().MaximumNumberOfQuads = 300" if quads == TOO_MANY else ""))
     session.apply()
     session.wait_until("quads() is not None and (quads().GetPropertyValue('Verdict') or '') != ''", seconds=120)
     session.find_origin()
