@@ -82,7 +82,7 @@ std::string defectText(
   {
     text << inverted.size()
          << (inverted.size() == 1 ? " quad inverted near " : " quads inverted, one near ")
-         << quadrille::placeText(inverted.front()) << ": ";
+         << quadrille::placeText(inverted.front()) << ": ask for smaller quads. ";
   }
   return text.str();
 }

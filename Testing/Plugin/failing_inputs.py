@@ -93,7 +93,8 @@ class Session(test_places.Session):
                 counts[pixel] = counts.get(pixel, 0) + 1
         counts.pop(max(counts, key=counts.get))
         return sum(counts.values()), sum(n for (r, g, b), n in counts.items()
-                                         if r > 60 and b > 60 and g < min(r, b) / 3)
+                                         if (r > 60 and b > 60 and g < min(r, b) / 3)  # fails here
+                                         or (r > 120 and 4 * b < r and r / 5 < g < r / 2))  # inverted
 
     def state(self):
         return self.value("(output(0).GetNumberOfCells(), output(8).GetNumberOfCells(), marks(), "
