@@ -141,6 +141,7 @@ std::optional<LineInQuads> LinesInQuads::find(const PlacedConstraint& constraint
 LineInQuads LinesInQuads::lineOf(const std::vector<Index>& chain) const
 {
   LineInQuads line;
+  line.points = chain;
   line.chain.reserve(chain.size());
   for (const Index p : chain)
   {

@@ -26,6 +26,7 @@ bool isLine(const PlacedConstraint& constraint);
 struct LineInQuads
 {
   std::vector<Vector3> chain; ///< of a cycle its first point stands at the end again
+  std::vector<Index> points;  ///< of the quads, the same
   double distance =
     0; ///< the largest from chain to line or from line to chain, in mean edge lengths
   Vector3 place = Vector3::Zero(); ///< where that is

@@ -368,7 +368,8 @@ ExtractionResult extractQuads(
       untangleQuads(mesh, result.mesh, { options.fixedVertices, options.threads });
       if (options.replacesBad)
       {
-        repairQuads(mesh, result.mesh, options.fixedVertices, options.threads);
+        repairQuads(
+          mesh, result.mesh, { options.fixedVertices, options.keptChains, options.threads });
       }
     }
   }

@@ -7,6 +7,7 @@
 #include "Base/FixedPoint.h"
 #include "Base/Progress.h"
 #include "Extraction/FeatureEnds.h"
+#include "Filling/QuadRepair.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Requests.h"
 #include "Quads/QuadMesh.h"
@@ -46,6 +47,7 @@ struct ExtractionOptions
   int smoothingSteps = 5;
   /// Whether bad quads that this leaves are replaced by others (see QuadRepair.h).
   bool replacesBad = true;
+  ChainsOfQuads keptChains; ///< see QuadRepairOptions
   /// Vertices of the mesh, ascending, whose quad vertices smoothing must not move (irregular ones that were asked for).
   std::vector<Index> fixedVertices;
   std::vector<FaceGuide> guides; ///< see SmoothingOptions

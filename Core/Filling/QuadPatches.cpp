@@ -69,6 +69,21 @@ QuadPatches::QuadPatches(const Mesh& mesh, QuadMesh& quads, const std::vector<In
   }
 }
 
+void QuadPatches::keep(const std::vector<std::vector<Index>>& chains)
+{
+  for (const std::vector<Index>& chain : chains)
+  {
+    for (std::size_t i = 0; i < chain.size(); ++i)
+    {
+      stays_[chain[i]] = 1;
+      if (i > 0)
+      {
+        lines_.insert(std::minmax(chain[i - 1], chain[i]));
+      }
+    }
+  }
+}
+
 bool QuadPatches::areJoined(Index a, Index b) const
 {
   return std::any_of(quadsAt_.begin(a), quadsAt_.end(a),

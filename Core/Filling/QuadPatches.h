@@ -63,6 +63,8 @@ public:
   /// fixedVertices: of the mesh, ascending; points on them stay, with their quads. The quads must be a manifold.
   QuadPatches(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices);
 
+  /// By their points: patches do not cross these chains, and their points stay.
+  void keep(const std::vector<std::vector<Index>>& chains);
   bool stays(Index p) const { return stays_[p] != 0; }
   /// By an edge, before.
   bool areJoined(Index a, Index b) const;

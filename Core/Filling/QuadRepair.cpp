@@ -34,9 +34,13 @@ using Quad = QuadChanges::Quad;
 class QuadRepair
 {
 public:
-  QuadRepair(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices)
-    : patches_(mesh, quads, fixedVertices)
+  QuadRepair(const Mesh& mesh, QuadMesh& quads, const QuadRepairOptions& options)
+    : patches_(mesh, quads, options.fixedVertices)
   {
+    if (options.keptChains)
+    {
+      patches_.keep(options.keptChains(quads));
+    }
   }
 
   /// Whether anything was changed.
@@ -145,8 +149,7 @@ private:
 
 } // namespace
 
-void repairQuads(
-  const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices, int threads)
+void repairQuads(const Mesh& mesh, QuadMesh& quads, const QuadRepairOptions& options)
 {
   // The worst first: what is changed for one is not changed for another in the same round.
   const auto badQuads = [&quads]
@@ -170,11 +173,11 @@ void repairQuads(
   for (int round = 0; round < kRoundsOfRepair && !bad.empty() && quads.polygonOffsets.empty();
        ++round)
   {
-    if (!QuadRepair(mesh, quads, fixedVertices).run(bad))
+    if (!QuadRepair(mesh, quads, options).run(bad))
     {
       break;
     }
-    untangleQuads(mesh, quads, { fixedVertices, threads });
+    untangleQuads(mesh, quads, { options.fixedVertices, options.threads });
     bad = badQuads();
   }
 }

@@ -7,16 +7,28 @@
 #include "Mesh/Mesh.h"
 #include "Quads/QuadMesh.h"
 
+#include <functional>
 #include <vector>
 
 namespace quadrille
 {
 
+/// Chains of edges by their points.
+using ChainsOfQuads = std::function<std::vector<std::vector<Index>>(const QuadMesh&)>;
+
+struct QuadRepairOptions
+{
+  /// Of the mesh, ascending: points on them keep their place and their quads.
+  std::vector<Index> fixedVertices;
+  ChainsOfQuads
+    keptChains; ///< their edges stay, and their points' numbers of quads; asked before each round; or none
+  int threads = 1;
+};
+
 /// Changes quads round those with a scaled Jacobian below 0.1, between the lines of the mesh, and moves points there,
-/// where fewer are inverted then, or as many and fewer are bad. Lines and points on them stay, and so do all quads at
-/// fixedVertices (of the mesh, ascending). The quads must be a manifold that lies on the mesh; where there are
-/// polygons, nothing is done. New quads have no place in the map (QuadMesh::quadSourceWeights).
-void repairQuads(
-  const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices, int threads = 1);
+/// where fewer are inverted then, or as many and fewer are bad. Lines and points on them stay. The quads must be a
+/// manifold that lies on the mesh; where there are polygons, nothing is done. New quads have no place in the map
+/// (QuadMesh::quadSourceWeights).
+void repairQuads(const Mesh& mesh, QuadMesh& quads, const QuadRepairOptions& options);
 
 } // namespace quadrille

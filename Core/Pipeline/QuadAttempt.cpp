@@ -5,10 +5,12 @@
 
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
+#include "Evaluation/LinesInQuads.h"
 #include "Pipeline/Estimate.h"
 #include "Pipeline/Notices.h"
 #include "Quads/QuadShape.h"
 #include "Quads/SurfaceShape.h"
+#include "Requests/MeshPaths.h"
 #include "Transfer/Transfer.h"
 
 #include <algorithm>
@@ -208,6 +210,37 @@ std::vector<Index> verticesThatStay(const PreparedSurface& surface, const MapAtt
   return vertices;
 }
 
+/// What connections and cycles have become in the quads.
+std::vector<std::vector<Index>> chainsOfCurves(const PreparedSurface& surface,
+  const std::vector<CurveOutcome>& curves, const QuadMesh& quads, int threads)
+{
+  const NearestQuads nearest(quads);
+  const LinesInQuads lines(quads, nearest);
+  std::vector<std::vector<Index>> chains;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+  {
+    if (!curves[i].met)
+    {
+      continue;
+    }
+    const bool isCycle = surface.curves[i].kind == CurveKind::Cycle;
+    std::vector<Vector3> points = surface.curves[i].points;
+    if (isCycle)
+    {
+      points.push_back(points.front());
+    }
+    PlacedConstraint drawn;
+    drawn.kind = isCycle ? ConstraintKind::Cycle : ConstraintKind::Connection;
+    drawn.path = courseOnMesh(surface.mesh, points, threads).points;
+    std::optional<LineInQuads> line = lines.find(drawn);
+    if (line)
+    {
+      chains.push_back(std::move(line->points));
+    }
+  }
+  return chains;
+}
+
 void extractOnSurface(
   const RunContext& run, const PlannedSurface& surface, const MapAttempt& map, QuadAttempt& made)
 {
@@ -226,8 +259,13 @@ void extractOnSurface(
   options.smoothingSteps = run.options.smoothingSteps;
   options.fixedVertices = verticesThatStay(*surface, map);
   options.guides = map.guides;
-  // Else quads of the curves' chains could go. Of the coarsest ones each is a patch of a layout, whatever its shape.
-  options.replacesBad = map.curves.empty() && !run.options.coarsestIntegers && !run.hasBeside;
+  // Of the coarsest ones each is a patch of a layout, whatever its shape.
+  options.replacesBad = !run.options.coarsestIntegers && !run.hasBeside;
+  if (!map.curves.empty())
+  {
+    options.keptChains = [&](const QuadMesh& quads)
+    { return chainsOfCurves(*surface, map.curves, quads, run.options.threads); };
+  }
   options.mapIsCertified = map.certificate.valid();
   options.shape = shape.get();
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");

@@ -338,7 +338,7 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
     smoothing.threads = options.threads;
     smoothQuads(sized.surface->mesh, result.quads, smoothing);
     untangleQuads(sized.surface->mesh, result.quads, { {}, options.threads });
-    repairQuads(sized.surface->mesh, result.quads, {}, options.threads);
+    repairQuads(sized.surface->mesh, result.quads, { {}, nullptr, options.threads });
   }
   result.notices.push_back(filledText(cut, sized.targetQuads));
   failure = {};

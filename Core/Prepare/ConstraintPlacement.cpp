@@ -84,7 +84,7 @@ std::vector<Vector3> ConstraintPlacement::follow(
     placed.path = points;
     return points;
   }
-  SurfacePaths::Path path = paths_.through(points);
+  MeshCourse path = paths_.through(points);
   if (path.tornBehind)
   {
     refuse(what, " ", line.source, ": no way on the surface leads from ",

@@ -3,7 +3,6 @@
 #include "Prepare/SurfacePaths.h"
 
 #include "Prepare/Prepare.h"
-#include "Requests/MeshPaths.h"
 
 #include <utility>
 
@@ -16,7 +15,7 @@ void SurfacePaths::use(std::shared_ptr<const PreparedSurface> made, const Frame&
   frame_ = frame;
 }
 
-SurfacePaths::Path SurfacePaths::through(const std::vector<Vector3>& points) const
+MeshCourse SurfacePaths::through(const std::vector<Vector3>& points) const
 {
   if (!made_ && !mesh_)
   {
@@ -36,31 +35,16 @@ SurfacePaths::Path SurfacePaths::through(const std::vector<Vector3>& points) con
   {
     framed.push_back(frame.fromUser(p));
   }
-  const std::vector<MeshPlace> places = placesOnMesh(mesh, framed, threads_);
-  Path path;
+  MeshCourse course = courseOnMesh(mesh, framed, threads_);
+  for (Vector3& p : course.points)
+  {
+    p = frame.toUser(p);
+  }
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    if (i > 0 && points[i - 1] != points[i])
-    {
-      const std::optional<MeshPath> way = pathOnMesh(mesh, places[i - 1], places[i]);
-      if (way)
-      {
-        for (const EdgeCrossing& crossing : way->crossings)
-        {
-          path.points.push_back(frame.toUser(crossing.point(mesh)));
-        }
-      }
-      else if (!path.tornBehind)
-      {
-        path.tornBehind = i - 1;
-      }
-    }
-    if (path.points.empty() || path.points.back() != points[i])
-    {
-      path.points.push_back(points[i]);
-    }
+    course.points[course.own[i]] = points[i];
   }
-  return path;
+  return course;
 }
 
 } // namespace quadrille

@@ -5,8 +5,8 @@
 
 #include "Mesh/Surface.h"
 #include "Prepare/Frame.h"
+#include "Requests/MeshPaths.h"
 
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,14 +18,6 @@ namespace quadrille
 class SurfacePaths
 {
 public:
-  struct Path
-  {
-    std::vector<Vector3> points; ///< the polyline's, and where it passes from face to face
-    /// The first of two points of the polyline that lie on different parts of the surface, if there are such; the path
-    /// is straight between them.
-    std::optional<std::size_t> tornBehind;
-  };
-
   /// The surface is prepared with the first question that needs it, and has to stay as it is. threads: 0: all.
   explicit SurfacePaths(const SurfaceInput& input, int threads = 1)
     : input_(input), threads_(threads)
@@ -35,8 +27,8 @@ public:
   /// Takes a surface that a run has made of the input, in the run's frame, in place of what would be prepared; null:
   /// none any more. Its faces may be others, its shape is the same.
   void use(std::shared_ptr<const PreparedSurface> made, const Frame& frame);
-  /// Straight over faces, see pathOnMesh. points: on the surface. Throws InvalidInput as prepareSurface does.
-  Path through(const std::vector<Vector3>& points) const;
+  /// See courseOnMesh. points: on the surface. Throws InvalidInput as prepareSurface does.
+  MeshCourse through(const std::vector<Vector3>& points) const;
 
 private:
   const SurfaceInput& input_;

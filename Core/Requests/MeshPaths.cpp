@@ -553,4 +553,34 @@ std::optional<MeshPath> pathOnMesh(const Mesh& mesh, const MeshPlace& from, cons
   return result;
 }
 
+MeshCourse courseOnMesh(const Mesh& mesh, const std::vector<Vector3>& points, int threads)
+{
+  const std::vector<MeshPlace> places = placesOnMesh(mesh, points, threads);
+  MeshCourse course;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (i > 0 && points[i - 1] != points[i])
+    {
+      const std::optional<MeshPath> way = pathOnMesh(mesh, places[i - 1], places[i]);
+      if (way)
+      {
+        for (const EdgeCrossing& crossing : way->crossings)
+        {
+          course.points.push_back(crossing.point(mesh));
+        }
+      }
+      else if (!course.tornBehind)
+      {
+        course.tornBehind = i - 1;
+      }
+    }
+    if (course.points.empty() || course.points.back() != points[i])
+    {
+      course.points.push_back(points[i]);
+    }
+    course.own.push_back(course.points.size() - 1);
+  }
+  return course;
+}
+
 } // namespace quadrille

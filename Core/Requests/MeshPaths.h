@@ -5,6 +5,7 @@
 
 #include "Requests/MeshPlaces.h"
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -34,5 +35,17 @@ struct MeshPath
 /// algorithm [Hart, Nilsson, Raphael 1968]; in them it is the shortest one [Lee, Preparata 1984], and they give way
 /// where another side of a vertex makes it shorter [Xin, Wang 2007]. None where the places are on different components.
 std::optional<MeshPath> pathOnMesh(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to);
+
+struct MeshCourse
+{
+  std::vector<Vector3> points;  ///< the polyline's, and where it passes from face to face
+  std::vector<std::size_t> own; ///< of each of the polyline's points: its place there
+  /// The first of two points of the polyline that lie on different components, if there are such; the course is straight
+  /// between them.
+  std::optional<std::size_t> tornBehind;
+};
+
+/// By paths from each point of a polyline near the mesh to the next.
+MeshCourse courseOnMesh(const Mesh& mesh, const std::vector<Vector3>& points, int threads = 1);
 
 } // namespace quadrille

@@ -145,8 +145,46 @@ TEST(QuadRepair, LeavesGoodQuadsAndThoseAtFixedVerticesAlone)
   {
     fixed.push_back(v);
   }
-  repairQuads(mesh, quads, fixed);
+  repairQuads(mesh, quads, { fixed, nullptr });
   EXPECT_EQ(quads.quads, withFlatCorner(mesh).quads);
+}
+
+/// What a connection or a cycle has become runs straight only while its points keep their quads.
+TEST(QuadRepair, LeavesChainsAsTheyAre)
+{
+  const Mesh mesh = test::gridPlane(kColumns, kRows);
+  const auto pointOf = [](const QuadMesh& quads, const Vector3& place)
+  {
+    const auto at = std::min_element(quads.points.begin(), quads.points.end(),
+      [&](const Vector3& a, const Vector3& b) { return (a - place).norm() < (b - place).norm(); });
+    return static_cast<Index>(at - quads.points.begin());
+  };
+  const std::vector<Vector3> course = { { 3, 1, 0 }, { 3, 2, 0 }, { 3, 3, 0 } };
+  const auto chainIn = [&](const QuadMesh& quads)
+  {
+    std::vector<Index> chain;
+    for (const Vector3& place : course)
+    {
+      chain.push_back(pointOf(quads, place));
+    }
+    return std::vector<std::vector<Index>>{ chain };
+  };
+  const QuadMesh before = withFlatCorner(mesh);
+  const auto quadsAt = [&](const QuadMesh& quads, const Vector3& place)
+  {
+    const Index p = pointOf(quads, place);
+    return std::count_if(quads.quads.begin(), quads.quads.end(),
+      [&](const auto& quad) { return std::find(quad.begin(), quad.end(), p) != quad.end(); });
+  };
+  QuadMesh free = before;
+  repairQuads(mesh, free, {});
+  EXPECT_NE(quadsAt(free, course.front()), quadsAt(before, course.front()));
+  QuadMesh kept = before;
+  repairQuads(mesh, kept, { {}, chainIn });
+  for (const Vector3& place : course)
+  {
+    EXPECT_EQ(quadsAt(kept, place), quadsAt(before, place));
+  }
 }
 
 TEST(QuadRepair, DoesNotReachAcrossLines)
