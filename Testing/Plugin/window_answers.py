@@ -40,12 +40,8 @@ def serve(view, names):
 
 
 def bytes_of(quads):
-    """Of the first output of a filter's proxy in this process."""
-    return bytes_of_data(quads.GetClientSideObject().GetOutputDataObject(0))
-
-
-def bytes_of_data(data):
-    """A fingerprint of places and connectivity, and the number of quads."""
+    """A fingerprint of places and connectivity of the first output of a filter's proxy, and the number of quads."""
+    data = quads.GetClientSideObject().GetOutputDataObject(0)
     polys = data.GetPolys()
     arrays = (data.GetPoints().GetData(), polys.GetOffsetsArray(), polys.GetConnectivityArray())
     digest = hashlib.sha256()
