@@ -73,7 +73,7 @@ def own_files(folder):
                  [list(range(31))]), 200
     yield legacy(folder / "huge_places.vtk", [(x * 1e300, y * 1e300, z) for x, y, z in points], cells), 200
     yield legacy(folder / "too_many.vtk", points, cells), TOO_MANY
-    asked = "CELL_DATA %d\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n" % len(cells) + "7\n" * len(cells)
+    asked = f"CELL_DATA {len(cells)}\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n" + "7\n" * len(cells)
     yield legacy(folder / "all_features.vtk", points, cells, more=asked), 4
     yield legacy(folder / "wrong_array.vtk", points, cells,
                  more="POINT_DATA %d\nSCALARS TargetValence double 1\nLOOKUP_TABLE default\n" % len(points)
@@ -85,7 +85,8 @@ class Session(test_places.Session):
         """Pixels that are not the background's, and those that mark a place, without legends and messages."""
         left, bottom = self.origin
         width, height = self.value("tuple(view.ViewSize)")
-        rows = [row[3 * left:3 * (left + width - LEGEND)] for row in self.rows()[bottom - height + 30:bottom - MESSAGES]]
+        rows = [row[3 * left:3 * (left + width - LEGEND)]
+                for row in self.rows()[bottom - height + 30:bottom - MESSAGES]]
         counts = {}
         for row in rows:
             for x in range(5, len(row) // 3 - 5, 2):
@@ -127,7 +128,8 @@ def try_input(session, path, quads):
                 "    return sum(kinds.GetTuple1(i) != 0 for i in range(output(8).GetNumberOfCells())) if kinds else 0\n"
                 "def has_surface():\n    data = simple.GetActiveSource()\n"
                 "    source = quads().Input\n    info = source.GetDataInformation()\n"
-                "    b = info.GetBounds()\n    return info.GetNumberOfCells() > 0 and sum(0 < b[i + 1] - b[i] < 1e200 for i in (0, 2, 4)) > 1")
+                "    b = info.GetBounds()\n"
+                "    return info.GetNumberOfCells() > 0 and sum(0 < b[i + 1] - b[i] < 1e200 for i in (0, 2, 4)) > 1")
     session.new("Quad Remesh")
     session.ask(f"quads().NumberOfQuads = {quads}"
                 + ("; quads().MaximumNumberOfQuads = 300" if quads == TOO_MANY else ""))
