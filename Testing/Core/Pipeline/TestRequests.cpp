@@ -230,7 +230,7 @@ TEST(Requests, ValencesComeOutAtTheirPoints)
   }
 }
 
-/// All opposite sides of a box have the same number of quads, which no pair of irregular vertices on one of them allows.
+/// All opposite sides of a box have the same number of quads, which no pair of irregular vertices on one side allows.
 TEST(Requests, AValenceOnASideOfACubeCostsNoFeatures)
 {
   SurfaceInput input = toInput(unitCube(12));
