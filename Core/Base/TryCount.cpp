@@ -18,6 +18,8 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
   { "pipeline", "kept defects", "vertices of the surface's bad triangles are kept on all levels",
     "2 a round" },
   { "pipeline", "more quads", "as many quads as go three times round the shortest loop", "1" },
+  { "pipeline", "counterparts",
+    "three more irregular vertices beside each that was asked for near a failure", "1" },
   { "pipeline", "fewer features", "detected features near the places of a failure are given up",
     "4" },
   { "pipeline", "coarser features",

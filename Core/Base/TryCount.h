@@ -19,6 +19,7 @@ enum class Try : std::uint8_t
   RoomForCurves,
   KeptDefects,
   MoreQuads,
+  Counterparts,
   FewerFeatures,
   CoarserFeatures,
   FewerDetails,

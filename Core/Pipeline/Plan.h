@@ -6,6 +6,7 @@
 
 #include "Base/TryCount.h"
 #include "Base/Types.h"
+#include "Mesh/Requests.h"
 
 #include <cstddef>
 #include <memory>
@@ -48,8 +49,9 @@ struct Plan
   // Of the surface, see withPlan.
   std::shared_ptr<const std::vector<float>> sizes;           ///< #V; null: those of the surface
   std::shared_ptr<const std::vector<Index>> featuresGivenUp; ///< half-edges; null: none
-  int featureDrops = 0;                                      ///< how often features were given up
-  std::vector<FeatureDrop> dropped;                          ///< where
+  std::shared_ptr<const std::vector<ValenceRequest>> counterparts; ///< more of them; null: none
+  int featureDrops = 0;             ///< how often features were given up
+  std::vector<FeatureDrop> dropped; ///< where
 
   // Of the map.
   double quads = 0; ///< that it is scaled to

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/PlannedSurface.h"
 
+#include "Base/Lists.h"
 #include "Features/FeatureFilter.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/FlatSources.h"
 #include "Mesh/Sizing.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace quadrille
@@ -69,7 +71,7 @@ PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, Resul
 
 PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int threads)
 {
-  if (!plan.sizes && !plan.featuresGivenUp)
+  if (!plan.sizes && !plan.featuresGivenUp && !plan.counterparts)
   {
     return surface;
   }
@@ -83,6 +85,12 @@ PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int thr
     key.add(*plan.featuresGivenUp);
     stars.add(*plan.featuresGivenUp);
     planned.hash = contentHash(mesh, threads);
+  }
+  if (plan.counterparts)
+  {
+    append(planned.valenceRequests, *plan.counterparts);
+    std::sort(planned.valenceRequests.begin(), planned.valenceRequests.end(),
+      [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
   }
   const ResultKey keyWithoutSizes = key.key();
   if (plan.sizes)

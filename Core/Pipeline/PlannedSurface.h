@@ -41,7 +41,7 @@ struct PlannedSurface
 /// The surface as it is. key: of it.
 PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, ResultKey key);
 
-/// With the sizes of the plan, without the features that it gives up. surface: without a plan.
+/// With the sizes and irregular vertices of the plan, without the features that it gives up. surface: without a plan.
 PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int threads);
 
 } // namespace quadrille

@@ -25,7 +25,8 @@ constexpr std::array<Strategy, 3> kForMaps{ {
   { Try::RoomForCurves, 1, roomForCurves },
   { Try::KeptDefects, 2, keptDefects },
 } };
-constexpr std::array<Strategy, 1> kForRounds{ {
+constexpr std::array<Strategy, 2> kForRounds{ {
+  { Try::Counterparts, 1, withCounterparts },
   { Try::FewerFeatures, kMostFeatureDrops, fewerFeatures },
 } };
 

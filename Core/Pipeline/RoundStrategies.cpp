@@ -8,6 +8,7 @@
 #include "Features/GivenUpFeatures.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/SmallParts.h"
+#include "Requests/Counterparts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,9 @@ constexpr double kFirstFeatureDrop = 0.5;
 
 /// Where nothing else has led to quads, features that quads so many times as large cannot resolve go first.
 constexpr double kCoarserFeatures = 4;
+
+/// Edge lengths between irregular vertices that are put beside one.
+constexpr double kSideOfCounterparts = 3;
 
 constexpr const char* kDoNotFit =
   "quads of the wanted size do not fit round a handle, a hole or a thin part near ";
@@ -178,6 +182,57 @@ std::optional<Plan> moreQuads(const AttemptFailure& failure)
   plan.notices.push_back(kDoNotFit + placeText(place) + ": made for " +
     std::to_string(std::llround(plan.quads)) +
     " quads instead; ask for that many, or close it, for a result without this");
+  return plan;
+}
+
+std::optional<Plan> withCounterparts(const AttemptFailure& failure)
+{
+  const PreparedSurface& surface = *failure.surface;
+  const double edgeLength = failure.run.edgeLength;
+  Plan plan = newRound(failure.attempt.plan);
+  if (plan.counterparts || surface.regularElsewhere || isTooLarge(failure.attempt))
+  {
+    return std::nullopt;
+  }
+  std::vector<ValenceRequest> more;
+  std::vector<Vector3> places;
+  for (const ValenceRequest& asked : surface.valenceRequests)
+  {
+    const Vector3& at = surface.mesh.position[asked.vertex];
+    const bool failsThere = std::any_of(failure.places.begin(), failure.places.end(),
+      [&](const Vector3& p) { return (p - at).norm() <= 2 * kSideOfCounterparts * edgeLength; });
+    if (asked.valence != kRegularValence && failsThere)
+    {
+      const std::vector<ValenceRequest> square =
+        counterparts(surface, asked, kSideOfCounterparts * edgeLength);
+      append(more, square);
+      if (!square.empty())
+      {
+        places.push_back(at);
+      }
+    }
+  }
+  if (more.empty())
+  {
+    return std::nullopt;
+  }
+  std::sort(more.begin(), more.end(),
+    [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
+  more.erase(
+    std::unique(more.begin(), more.end(),
+      [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex == b.vertex; }),
+    more.end());
+  for (const ValenceRequest& request : more)
+  {
+    plan.levels.keptVertices.push_back(request.vertex);
+  }
+  sortUnique(plan.levels.keptVertices);
+  plan.nextLevels = plan.levels;
+  plan.notices.push_back(
+    "a single irregular vertex does not fit between the features round it, so " +
+    std::to_string(more.size()) + " others were put beside what was asked for" + nearText(places) +
+    "; add a vertex of the opposite valence where it may be, to have fewer");
+  plan.counterparts = std::make_shared<const std::vector<ValenceRequest>>(std::move(more));
   return plan;
 }
 

@@ -48,6 +48,10 @@ std::optional<Plan> keptDefects(const AttemptFailure& failure);
 
 // For another round.
 
+/// Irregular vertices that were asked for near the places of a failure get counterparts (see Requests/Counterparts.h),
+/// before features are given up for them. Not where the others are asked for as well. Bound: times in all.
+std::optional<Plan> withCounterparts(const AttemptFailure& failure);
+
 /// Features that may be given up (see mayBeGivenUp) are, near the places of a failure, twice as far as the last time
 /// where a place fails again, and after a failure so far that there are some; or those that only the dihedral angle
 /// asked for, near folds at which quads are inverted. Bound: times in all, for quads that are inverted.

@@ -40,8 +40,8 @@ struct MeshCourse
 {
   std::vector<Vector3> points;  ///< the polyline's, and where it passes from face to face
   std::vector<std::size_t> own; ///< of each of the polyline's points: its place there
-  /// The first of two points of the polyline that lie on different components, if there are such; the course is straight
-  /// between them.
+  /// The first of two points of the polyline that lie on different components, if there are such; the course is
+  /// straight between them.
   std::optional<std::size_t> tornBehind;
 };
 

@@ -113,8 +113,8 @@ std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centre
 TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
-    std::vector<std::string>({ "more freedom", "room for curves", "kept defects", "fewer features",
-      "more quads", "coarser features" }));
+    std::vector<std::string>({ "more freedom", "room for curves", "kept defects", "counterparts",
+      "fewer features", "more quads", "coarser features" }));
 }
 
 // The plan that a run begins with.

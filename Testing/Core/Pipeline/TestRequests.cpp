@@ -9,9 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <utility>
 
 namespace quadrille
 {
@@ -225,6 +227,45 @@ TEST(Requests, ValencesComeOutAtTheirPoints)
   for (const std::string& notice : result.notices)
   {
     EXPECT_EQ(notice.find("valence"), std::string::npos) << notice;
+  }
+}
+
+/// All opposite sides of a box have the same number of quads, which no pair of irregular vertices on one side allows.
+TEST(Requests, AValenceOnASideOfACubeCostsNoFeatures)
+{
+  SurfaceInput input = toInput(unitCube(12));
+  RemeshOptions options;
+  options.quads = 2400;
+  options.featureAngle = kPi / 4;
+  options.coarseVertices = 300;
+  for (const auto& [place, valence] :
+    { std::pair(Vector3(0.5, 0.5, 1), 3), { { 0.75, 0.25, 1 }, 5 } })
+  {
+    input.drawn.valences = { { place, valence } };
+    const RemeshResult result = remesh(input, options);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    const QuadMesh& quads = result.quads;
+    double length = 0;
+    for (const QuadLine& line : quads.lines)
+    {
+      length += (quads.points[line.a] - quads.points[line.b]).norm();
+    }
+    EXPECT_NEAR(length, 12, 1e-6);
+    std::vector<int> irregular;
+    for (Index p = 0; p < quads.points.size(); ++p)
+    {
+      const bool isCorner = ((quads.points[p].array() - 0.5).abs() > 0.499).all();
+      if (quads.valence[p] != kRegularValence && !isCorner)
+      {
+        irregular.push_back(quads.valence[p]);
+      }
+    }
+    EXPECT_EQ(valenceAt(quads, place), valence);
+    std::sort(irregular.begin(), irregular.end());
+    EXPECT_EQ(irregular, std::vector<int>({ 3, 3, 5, 5 }));
+    EXPECT_TRUE(std::any_of(result.notices.begin(), result.notices.end(),
+      [](const std::string& text)
+      { return text.find("a single irregular vertex does not fit") != std::string::npos; }));
   }
 }
 
