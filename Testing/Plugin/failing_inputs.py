@@ -26,8 +26,8 @@ FIRST = 80   # characters
 TOO_MANY = 400  # quads, with a limit below that
 PRESSES = 3  # of Apply, each of which halves the length of the quads' edges
 #: What a user is told to do begins with one of these.
-TO_DO = re.compile(r"\b(ask for|use|set|switch|raise|repair|triangulate|correct|take|free|remove|make|choose|allow|load|"
-                   r"open|give|connect|see|show)\b", re.IGNORECASE)
+TO_DO = re.compile(r"\b(ask for|use|set|switch|raise|repair|triangulate|correct|take|free|remove|make|choose|allow|"
+                   r"load|open|give|connect|see|show)\b", re.IGNORECASE)
 
 
 def legacy(path, points, cells, kind="POLYGONS", more=""):
