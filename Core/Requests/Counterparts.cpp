@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/Counterparts.h"
 
+#include "Base/Angles.h"
 #include "Base/Lists.h"
 #include "Base/Progress.h"
 
@@ -21,7 +22,6 @@ constexpr int kSquares = 8;
 constexpr double kReach = 2;
 /// Of the side: so near to a corner a vertex has to be.
 constexpr double kNearCorner = 0.5;
-constexpr double kPi = 3.14159265358979323846;
 
 /// Of the face round a vertex, within a distance of it.
 struct Surroundings
