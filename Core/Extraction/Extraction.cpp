@@ -46,7 +46,8 @@ Status checkSize(const MapCheck& check, const Mesh& mesh, const ExtractionOption
   // Four ports a quad have to fit an Index.
   const double limit = std::min(static_cast<double>(options.maximumNumberOfQuads), 5e8);
   std::ostringstream text;
-  if (check.area > limit)
+  // An integer-grid map holds a whole number of them; its area is a sum.
+  if (std::round(check.area) > limit)
   {
     text << "ask for larger quads, or raise the limit: the map holds about "
          << std::llround(check.area) << " quads, more than the limit of "

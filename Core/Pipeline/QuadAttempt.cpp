@@ -126,6 +126,10 @@ std::string certificateText(const Certificate& certificate)
 
 Status failureOf(const Status& extraction, MapMethod method, const Certificate& certificate)
 {
+  if (extraction.code == StatusCode::TooLarge)
+  {
+    return extraction; // whatever the map is
+  }
   return { extraction.code,
     "ask for more quads, more coarse vertices, or a larger feature angle: " +
       (isRounded(method) ? std::string("no valid quad mesh from the map by '") + nameOf(method) +

@@ -82,6 +82,10 @@ std::vector<ValenceRequest> counterparts(
 {
   const Mesh& mesh = surface.mesh;
   const Surroundings around = surroundingsOf(mesh, asked.vertex, kReach * side);
+  if (around.inside.empty())
+  {
+    return {}; // on a feature or the boundary
+  }
   const Vector3 middle = mesh.position[asked.vertex];
   const Vector3 u = around.normal.unitOrthogonal();
   const Vector3 v = around.normal.cross(u).stableNormalized();

@@ -887,6 +887,17 @@ TEST(Pipeline, RefusesBeforeItSpends)
   EXPECT_NE(result.status.message.find("1000"), std::string::npos);
 }
 
+TEST(Pipeline, AsManyQuadsAsTheLimitAreNotTooMany)
+{
+  const SurfaceInput input = test::toInput(test::gridPlane(12, 12));
+  RemeshOptions options;
+  options.quads = 400;
+  options.maximumNumberOfQuads = 400;
+  const RemeshResult result = remesh(input, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_EQ(result.quads.quads.size(), 400U);
+}
+
 TEST(Pipeline, BadInputAndOptionsThrow)
 {
   SurfaceInput input = test::toInput(test::sphere(2));

@@ -75,6 +75,7 @@ TEST(Counterparts, KeepAwayFromWhatBoundsTheFace)
 TEST(Counterparts, AreNoneWhereThereIsNoRoom)
 {
   const PreparedSurface surface = plane();
+  EXPECT_TRUE(counterparts(surface, { vertexAt(surface.mesh, { 0, 10, 0 }), 3 }, 4).empty());
   EXPECT_TRUE(counterparts(surface, { vertexAt(surface.mesh, { 1, 1, 0 }), 3 }, 40).empty());
 }
 
