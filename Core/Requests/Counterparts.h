@@ -14,9 +14,9 @@
 namespace quadrille
 {
 
-/// Requests for three more vertices, at the corners of a square of this side; asked is at the other one. They may drift.
-/// Of eight squares the one that is farthest from what bounds the face. Empty where asked is on a feature or the
-/// boundary, or no square has vertices of the face near its corners.
+/// Requests for three more vertices, at the corners of a square of this side whose fourth one has what was asked for.
+/// They may drift. Of eight squares it is the one that is farthest from what bounds the face. Empty where asked is on a
+/// feature or the boundary, or no square has vertices of the face near its corners.
 std::vector<ValenceRequest> counterparts(
   const PreparedSurface& surface, const ValenceRequest& asked, double side);
 
