@@ -194,7 +194,7 @@ std::optional<Plan> withCounterparts(const AttemptFailure& failure)
   {
     return std::nullopt;
   }
-  std::vector<ValenceRequest> more;
+  std::map<Index, ValenceRequest> byVertex;
   std::vector<Vector3> places;
   for (const ValenceRequest& asked : surface.valenceRequests)
   {
@@ -205,26 +205,25 @@ std::optional<Plan> withCounterparts(const AttemptFailure& failure)
     {
       const std::vector<ValenceRequest> square =
         counterparts(surface, asked, kSideOfCounterparts * edgeLength);
-      append(more, square);
+      for (const ValenceRequest& request : square)
+      {
+        byVertex.emplace(request.vertex, request);
+      }
       if (!square.empty())
       {
         places.push_back(at);
       }
     }
   }
-  if (more.empty())
+  if (byVertex.empty())
   {
     return std::nullopt;
   }
-  std::sort(more.begin(), more.end(),
-    [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
-  more.erase(
-    std::unique(more.begin(), more.end(),
-      [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex == b.vertex; }),
-    more.end());
-  for (const ValenceRequest& request : more)
+  std::vector<ValenceRequest> more;
+  for (const auto& [vertex, request] : byVertex)
   {
-    plan.levels.keptVertices.push_back(request.vertex);
+    more.push_back(request);
+    plan.levels.keptVertices.push_back(vertex);
   }
   sortUnique(plan.levels.keptVertices);
   plan.nextLevels = plan.levels;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/Counterparts.h"
 
+#include "MeshInput.h"
 #include "Prepare/Prepare.h"
 #include "TestMeshes.h"
 
@@ -21,16 +22,7 @@ using namespace test;
 /// A square of side 20 with its boundary.
 PreparedSurface plane()
 {
-  const Mesh mesh = gridPlane(20, 20);
-  SurfaceInput input;
-  input.points = mesh.position;
-  input.polygonPoints = mesh.origin;
-  input.polygonOffsets.push_back(0);
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    input.polygonOffsets.push_back(3 * (f + 1));
-  }
-  return prepareSurface(input, {});
+  return prepareSurface(toInput(gridPlane(20, 20)), {});
 }
 
 Index vertexAt(const Mesh& mesh, const Vector3& place)

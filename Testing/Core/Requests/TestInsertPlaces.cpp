@@ -4,6 +4,7 @@
 
 #include "Mesh/Distance.h"
 #include "Mesh/Sizing.h"
+#include "MeshInput.h"
 #include "Prepare/Prepare.h"
 #include "Requests/MeshPaths.h"
 #include "Requests/StrokeGuides.h"
@@ -25,17 +26,9 @@ using namespace test;
 
 PreparedSurface prepared(const Mesh& mesh)
 {
-  SurfaceInput input;
-  input.points = mesh.position;
-  input.polygonPoints = mesh.origin;
-  input.polygonOffsets.push_back(0);
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    input.polygonOffsets.push_back(3 * (f + 1));
-  }
   PrepareOptions options;
   options.featureAngle = kPi / 4;
-  return prepareSurface(input, options);
+  return prepareSurface(toInput(mesh), options);
 }
 
 double areaOf(const Mesh& mesh)
