@@ -54,11 +54,11 @@ public:
     }
   }
 
-  /// Faces that would be one quad, and have no given edges.
+  /// Faces that would be one quad, and have edges that are not given.
   std::vector<Index> singleQuads() const
   {
     return idsWhere(
-      givenAround_.size(), [&](Index f) { return around_[f] == 4 && givenAround_[f] == 0; });
+      givenAround_.size(), [&](Index f) { return around_[f] == 4 && givenAround_[f] < 4; });
   }
 
   /// Whether there is a curve of these faces that had fewer edges than two.
@@ -250,6 +250,17 @@ std::vector<Vector3> FaceCurves::cornersRound(Index face) const
     const CurveStep& begin = curve.steps.front();
     atVertex.insert({ beginOf(begin), endOf(curve.steps.back()) });
     first = curve.faces[0] == face ? begin.h : mesh_.twin[begin.h];
+  }
+  for (const CurvePoint& point : given_)
+  {
+    if (faceOf_[Mesh::face(point.h)] == face && point.t > 0)
+    {
+      onEdge[point.h].push_back(point.t);
+    }
+    else if (faceOf_[Mesh::face(point.h)] == face)
+    {
+      atVertex.insert(mesh_.origin[point.h]);
+    }
   }
   std::vector<Vector3> corners;
   Index h = first;

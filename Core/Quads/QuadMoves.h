@@ -21,8 +21,8 @@ namespace quadrille
 using PointLists = Grouped<>;
 
 /// Where the points of a quad mesh may go: straight over the faces of the mesh, so that sourceFace and sourceWeights
-/// stay exact; points of features and boundaries along their curves. Corners, ends and junctions of curves, points of
-/// polygons and of a trimmed boundary, and points on the fixed vertices stay.
+/// stay exact; points of features and boundaries along their curves. Corners and junctions of curves, ends of those that
+/// were asked for, points of polygons and of a trimmed boundary, and points on the fixed vertices stay.
 class QuadMoves
 {
 public:
@@ -30,6 +30,8 @@ public:
   {
     Fixed,
     Curve,
+    End, ///< of a sharp edge that fades away: where it falls below the feature angle is no place of its own, so that it
+         ///< may move along the curve for the sake of quads that are inverted
     Surface
   };
 

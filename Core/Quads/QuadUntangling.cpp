@@ -97,7 +97,8 @@ private:
     std::for_each(moves_.incidentQuads().begin(p), moves_.incidentQuads().end(p), visit);
   }
 
-  /// The movable points of these quads and of so many rings round them, ascending.
+  /// The movable points of these quads and of so many rings round them, ascending; ends of sharp edges only where they
+  /// are corners of these quads.
   std::vector<Index> pointsRound(const std::vector<Index>& quads, int rings) const
   {
     std::vector<std::uint8_t> near(quads_.points.size(), 0);
@@ -114,7 +115,9 @@ private:
           {
             near[p] = 1;
             forQuadsAt(p, [&](Index beyond) { next.push_back(beyond); });
-            if (moves_.freedom(p) != QuadMoves::Freedom::Fixed)
+            const QuadMoves::Freedom freedom = moves_.freedom(p);
+            if (freedom == QuadMoves::Freedom::End ? ring == 0
+                                                   : freedom != QuadMoves::Freedom::Fixed)
             {
               points.push_back(p);
             }

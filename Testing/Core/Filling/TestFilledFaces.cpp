@@ -141,6 +141,21 @@ TEST(FaceCurves, GivenPointsMakeAFaceOdd)
   EXPECT_EQ(curves.chooseNumbers(), std::vector<Index>{ 0 });
 }
 
+// One quad with a given point in the middle of a straight side would have a flat corner there.
+TEST(FaceCurves, NoSingleQuadHasAFlatCornerAtAGivenPoint)
+{
+  const Mesh mesh = test::makeMesh({ { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 } }, { { 0, 1, 2 } });
+  FaceCurves curves(mesh, { 1, 0, 0 }, 5);
+  curves.setGiven({ { 0, 0 }, { 0, 0.5 }, { 1, 0 } });
+  EXPECT_TRUE(curves.chooseNumbers().empty());
+  std::size_t around = 2;
+  for (const FaceCurve& curve : curves.curves())
+  {
+    around += curve.edges;
+  }
+  EXPECT_EQ(around, 6U);
+}
+
 TEST(FaceCurves, ThreeEdgesGoRoundASlit)
 {
   Mesh mesh = test::gridPlane(8, 8);

@@ -3,6 +3,7 @@
 #include "GridMaps.h"
 
 #include "Extraction/Extraction.h"
+#include "Mesh/Surface.h"
 #include "Quads/QuadShape.h"
 #include "Quads/QuadUntangling.h"
 #include "Quads/SurfaceWalk.h"
@@ -78,6 +79,79 @@ struct Dart
       line.boundary = true;
       quads.lines.push_back(line);
     }
+  }
+};
+
+/// Nine quads on a square with sides of 12, at vertices of the mesh. A sharp edge ends in one of them, at (6, 4), such
+/// that the two quads beside the next point are inverted; further back along the edge they would not be.
+struct FadingEdge
+{
+  static constexpr Index kSide = 12, kEnd = 5;
+  Mesh mesh;
+  QuadMesh quads;
+  std::vector<Index> others; ///< vertices of the mesh but for the end
+
+  explicit FadingEdge(std::uint8_t flags)
+  {
+    const auto at = [](Index x, Index y) { return y * (kSide + 1) + x; };
+    std::vector<Vector3> points;
+    std::vector<std::array<Index, 3>> triangles;
+    for (Index y = 0; y <= kSide; ++y)
+    {
+      for (Index x = 0; x <= kSide; ++x)
+      {
+        points.emplace_back(x, y, 0);
+        if (x < kSide && y < kSide)
+        {
+          triangles.push_back({ at(x, y), at(x + 1, y), at(x + 1, y + 1) });
+          triangles.push_back({ at(x, y), at(x + 1, y + 1), at(x, y + 1) });
+        }
+      }
+    }
+    mesh = makeMesh(points, triangles);
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      const Vector3 middle = (mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2;
+      if (middle.y() == 4 && mesh.edgeVector(h).y() == 0 && middle.x() < 6)
+      {
+        mesh.flags.edit()[h] = flags;
+      }
+    }
+    std::vector<Index> vertices;
+    for (Index i = 0; i < 16; ++i)
+    {
+      vertices.push_back(at(i % 4 * 4, i / 4 * 4));
+    }
+    vertices[kEnd] = at(6, 4);
+    vertices[kEnd + 1] = at(6, 2);
+    for (Index v = 0; v < mesh.vertexCount(); ++v)
+    {
+      if (v != vertices[kEnd])
+      {
+        others.push_back(v);
+      }
+    }
+    for (Index i = 0; i < 16; ++i)
+    {
+      quads.points.push_back(mesh.position[vertices[i]]);
+      const auto h = static_cast<Index>(
+        std::find(mesh.origin.begin(), mesh.origin.end(), vertices[i]) - mesh.origin.begin());
+      quads.sourceFace.push_back(Mesh::face(h));
+      quads.sourceWeights.push_back(cornerWeight(h));
+      const bool onBoundary = i % 4 == 0 || i % 4 == 3 || i / 4 == 0 || i / 4 == 3;
+      quads.onBoundary.push_back(onBoundary ? 1 : 0);
+      quads.valence.push_back(onBoundary ? 3 : 4);
+      if (i % 4 < 3 && i / 4 < 3)
+      {
+        quads.quads.push_back({ i, i + 1, i + 5, i + 4 });
+        quads.quadSourceFace.push_back(quads.sourceFace.back());
+        quads.quadSourceWeights.push_back({});
+      }
+    }
+    QuadLine line;
+    line.a = kEnd - 1;
+    line.b = kEnd;
+    quads.lines.push_back(line);
   }
 };
 
@@ -176,6 +250,25 @@ TEST(QuadUntangling, WhatCannotBeMendedStaysAsItWas)
   EXPECT_EQ(result.invertedBefore, 1u);
   EXPECT_EQ(result.invertedAfter, 1u);
   expectSamePlaces(dart.quads, before);
+}
+
+// Where a detected sharp edge fades away is no place of its own; where one ends that was asked for is.
+TEST(QuadUntangling, EndsOfDetectedEdgesMoveAlongThem)
+{
+  FadingEdge detected(kFeatureEdge);
+  const QuadMesh before = detected.quads;
+  const UntanglingResult result =
+    untangleQuads(detected.mesh, detected.quads, { detected.others, 1 });
+  EXPECT_EQ(result.invertedBefore, 2u);
+  EXPECT_EQ(result.invertedAfter, 0u);
+  const Vector3& end = detected.quads.points[FadingEdge::kEnd];
+  EXPECT_EQ(end.y(), 4);
+  EXPECT_LT(end.x(), 4);
+  EXPECT_GT(end.x(), 0);
+
+  FadingEdge asked(kFeatureEdge | kRequestedFeature);
+  untangleQuads(asked.mesh, asked.quads, { asked.others, 1 });
+  expectSamePlaces(asked.quads, before);
 }
 
 TEST(QuadUntangling, SameBytesForAnyNumberOfThreads)
