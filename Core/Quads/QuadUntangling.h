@@ -24,7 +24,7 @@ struct UntanglingResult
 /// Where a map is valid, but a quad of it spans a sharp tip, a crease or a thin part of the surface, the corners of the
 /// quad may make it inverted in space. Points within up to eight rings of such quads move over the faces of the mesh,
 /// those of features and boundaries along their curves, as do ends of sharp edges that are corners of such quads (see
-/// QuadMoves.h): so that the areas at the corners of the quads become positive, the worst ones first. The points round a
+/// QuadMoves.h): so that the areas at the corners of the quads become positive, the worst ones first. Points round a
 /// place keep their moves only if fewer quads are inverted there.
 /// Nothing changes where no quad is inverted, or away from these places. The result does not depend on the number of
 /// threads. quads must be a manifold that was extracted from mesh.
