@@ -21,8 +21,8 @@ namespace quadrille
 using PointLists = Grouped<>;
 
 /// Where the points of a quad mesh may go: straight over the faces of the mesh, so that sourceFace and sourceWeights
-/// stay exact; points of features and boundaries along their curves. Corners and junctions of curves, ends of those that
-/// were asked for, points of polygons and of a trimmed boundary, and points on the fixed vertices stay.
+/// stay exact; points of features and boundaries along their curves. Corners and junctions of curves, ends of those
+/// that were asked for, points of polygons and of a trimmed boundary, and points on the fixed vertices stay.
 class QuadMoves
 {
 public:
