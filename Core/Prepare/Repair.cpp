@@ -126,8 +126,8 @@ void checkArrays(const SurfaceInput& input)
 void checkInput(const SurfaceInput& input, int threads)
 {
   refuseIf(input.points.empty() || input.polygonOffsets.size() < 2 || input.polygonPoints.empty(),
-    "the surface is empty: it has ", input.points.size(),
-    " points and no polygon with corners. Connect a surface with polygons.");
+    "connect a surface with polygons: this one is empty, it has ", input.points.size(),
+    " points and no polygon with corners.");
   refuseIf(input.points.size() >= kInvalidIndex || input.polygonPoints.size() >= kInvalidIndex,
     "the surface has more than 4294967294 points or corners: reduce it first.");
   checkOffsets(input);
