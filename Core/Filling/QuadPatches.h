@@ -7,6 +7,7 @@
 #include "Filling/FaceGround.h"
 #include "Filling/QuadRelaxation.h"
 #include "Quads/QuadMesh.h"
+#include "Quads/QuadShape.h"
 #include "Quads/QuadTopology.h"
 
 #include <array>
@@ -20,26 +21,6 @@
 
 namespace quadrille
 {
-
-/// Of quads of a bad shape.
-struct QuadScore
-{
-  std::size_t inverted = 0, bad = 0; ///< bad ones are inverted, too
-  double worst = 1;
-
-  bool hasFewerThan(const QuadScore& other) const
-  {
-    return inverted < other.inverted || (inverted == other.inverted && bad < other.bad);
-  }
-  bool betterThan(const QuadScore& other) const
-  {
-    return hasFewerThan(other) ||
-      (inverted == other.inverted && bad == other.bad && worst > other.worst);
-  }
-};
-
-/// Quads with a smaller scaled Jacobian are bad.
-constexpr double kLeastShape = 0.1;
 
 /// Gaps, quads without points, do not count.
 QuadScore scoreOf(const FaceQuads& mesh);

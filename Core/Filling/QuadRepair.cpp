@@ -152,7 +152,7 @@ private:
 void repairQuads(const Mesh& mesh, QuadMesh& quads, const QuadRepairOptions& options)
 {
   // The worst first: what is changed for one is not changed for another in the same round.
-  const auto badQuads = [&quads]
+  const auto worstFirst = [&quads]
   {
     std::vector<std::pair<double, Index>> found;
     for (Index q = 0; q < quads.quads.size(); ++q)
@@ -169,7 +169,7 @@ void repairQuads(const Mesh& mesh, QuadMesh& quads, const QuadRepairOptions& opt
       [](const std::pair<double, Index>& one) { return one.second; });
     return bad;
   };
-  std::vector<Index> bad = badQuads();
+  std::vector<Index> bad = worstFirst();
   for (int round = 0; round < kRoundsOfRepair && !bad.empty() && quads.polygonOffsets.empty();
        ++round)
   {
@@ -178,7 +178,7 @@ void repairQuads(const Mesh& mesh, QuadMesh& quads, const QuadRepairOptions& opt
       break;
     }
     untangleQuads(mesh, quads, { options.fixedVertices, options.threads });
-    bad = badQuads();
+    bad = worstFirst();
   }
 }
 

@@ -31,7 +31,7 @@ public:
     Fixed,
     Curve,
     End, ///< of a sharp edge that fades away: where it falls below the feature angle is no place of its own, so that it
-         ///< may move along the curve for the sake of quads that are inverted
+         ///< may move along the curve for the sake of bad quads
     Surface
   };
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace quadrille
@@ -42,6 +43,26 @@ inline double scaledJacobian(const std::array<Vector3, 4>& p)
   return worst;
 }
 
+/// Quads with a smaller scaled Jacobian are bad: points move to mend them, and what is left of them is replaced.
+constexpr double kLeastShape = 0.1;
+
+/// How good some quads are.
+struct QuadScore
+{
+  std::size_t inverted = 0, bad = 0; ///< inverted ones are bad, too
+  double worst = 1;                  ///< shape
+
+  bool hasFewerThan(const QuadScore& other) const
+  {
+    return inverted < other.inverted || (inverted == other.inverted && bad < other.bad);
+  }
+  bool betterThan(const QuadScore& other) const
+  {
+    return hasFewerThan(other) ||
+      (inverted == other.inverted && bad == other.bad && worst > other.worst);
+  }
+};
+
 /// The corners of a quad of points.
 inline std::array<Vector3, 4> cornersOf(
   const std::vector<Vector3>& points, const std::array<Index, 4>& quad)
@@ -61,6 +82,14 @@ inline bool isInverted(const std::array<Vector3, 4>& p)
     }
   }
   return false;
+}
+
+/// The quads with a scaled Jacobian below kLeastShape, ascending.
+inline std::vector<Index> badQuads(
+  const std::vector<Vector3>& points, const std::vector<std::array<Index, 4>>& quads)
+{
+  return idsWhere(quads.size(),
+    [&](Index q) { return scaledJacobian(cornersOf(points, quads[q])) < kLeastShape; });
 }
 
 /// The quads with a scaled Jacobian <= 0, ascending.

@@ -10,19 +10,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace quadrille
 {
 namespace
 {
 
-/// So many rings of quads round those that are inverted may move; the next number where some are left.
+/// So many rings of quads round those that are bad may move; the next number where some are left.
 constexpr int kRingsThatMove[] = { 1, 2, 4, 8 };
 constexpr int kMostUntanglingSweeps = 30;
 /// A sweep that lowers the badness of a place by less than this part is the last one.
 constexpr double kLeastProgress = 0.01;
-/// Corners with less than this area go on moving once no quad is inverted.
+/// Corners with less than this area go on moving once no quad is bad.
 constexpr double kMargin = 0.15;
 /// Points whose corners all have more than this area stay.
 constexpr double kGoodCorner = 0.6;
@@ -63,24 +62,22 @@ public:
   {
   }
 
-  /// The quads that are left inverted.
-  std::vector<Index> run(std::vector<Index> inverted)
+  void run(std::vector<Index> bad)
   {
     for (const int rings : kRingsThatMove)
     {
-      if (inverted.empty())
+      if (bad.empty())
       {
         break;
       }
       const bool isWider = rings > kRingsThatMove[0];
       countTry(Try::WiderUntangling, isWider ? 1 : 0);
-      const std::size_t before = inverted.size();
-      const std::vector<Place> places = separate(pointsRound(inverted, rings));
+      const std::size_t before = bad.size();
+      const std::vector<Place> places = separate(pointsRound(bad, rings));
       parallelForEach(places.size(), 1, options_.threads, [&](std::size_t i) { mend(places[i]); });
-      inverted = invertedQuads(quads_.points, quads_.quads);
-      countTryLed(Try::WiderUntangling, isWider && inverted.size() < before ? 1 : 0);
+      bad = badQuads(quads_.points, quads_.quads);
+      countTryLed(Try::WiderUntangling, isWider && bad.size() < before ? 1 : 0);
     }
-    return inverted;
   }
 
 private:
@@ -183,17 +180,15 @@ private:
   /// How good the quads of a place are.
   struct State
   {
-    std::size_t inverted = 0;
-    std::size_t inwards = 0;                                ///< quads inverted as a whole
-    double worst = std::numeric_limits<double>::infinity(); ///< area of a corner, in units
-    double badness = 0;                                     ///< of all corners
+    QuadScore score;         ///< worst: the least area of a corner, in units
+    std::size_t inwards = 0; ///< quads inverted as a whole
+    double badness = 0;      ///< of all corners
     std::vector<SurfacePoint> points;
     std::vector<Vector3> positions;
 
     bool betterThan(const State& other) const
     {
-      return inwards <= other.inwards &&
-        (inverted < other.inverted || (inverted == other.inverted && worst > other.worst));
+      return inwards <= other.inwards && score.betterThan(other.score);
     }
   };
 
@@ -203,11 +198,12 @@ private:
     for (const Index q : place.quads)
     {
       const std::array<Vector3, 4> corners = cornersOf(quads_.points, quads_.quads[q]);
-      state.inverted += isInverted(corners) ? 1 : 0;
+      state.score.inverted += isInverted(corners) ? 1 : 0;
+      state.score.bad += scaledJacobian(corners) < kLeastShape ? 1 : 0;
       state.inwards += moves_.facesOutwards(q, corners) ? 0 : 1;
       for (const double area : areasInUnits(q, corners))
       {
-        state.worst = std::min(state.worst, area);
+        state.score.worst = std::min(state.score.worst, area);
         state.badness += badness(area);
       }
     }
@@ -228,7 +224,8 @@ private:
     std::uint32_t time = 1;
     double left = before.badness;
     for (int sweep = 0;
-         sweep < kMostUntanglingSweeps && (best.inverted > 0 || best.worst < kMargin); ++sweep)
+         sweep < kMostUntanglingSweeps && (best.score.bad > 0 || best.score.worst < kMargin);
+         ++sweep)
     {
       for (const Index p : place.points)
       {
@@ -246,7 +243,7 @@ private:
         break;
       }
     }
-    const State& result = best.inverted < before.inverted ? best : before;
+    const State& result = best.score.hasFewerThan(before.score) ? best : before;
     for (std::size_t i = 0; i < place.points.size(); ++i)
     {
       moves_.move(place.points[i], result.points[i], result.positions[i]);
@@ -398,13 +395,15 @@ private:
 
 UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
 {
+  const auto inverted = [&quads] { return invertedQuads(quads.points, quads.quads).size(); };
   UntanglingResult result;
-  std::vector<Index> inverted = invertedQuads(quads.points, quads.quads);
-  result.invertedBefore = inverted.size();
-  if (!inverted.empty())
+  result.invertedBefore = inverted();
+  std::vector<Index> bad = badQuads(quads.points, quads.quads);
+  if (!bad.empty())
   {
-    result.invertedAfter = Untangling(mesh, quads, options).run(std::move(inverted)).size();
+    Untangling(mesh, quads, options).run(std::move(bad));
   }
+  result.invertedAfter = inverted();
   return result;
 }
 

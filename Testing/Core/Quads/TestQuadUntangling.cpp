@@ -82,16 +82,16 @@ struct Dart
   }
 };
 
-/// Nine quads on a square with sides of 12, at vertices of the mesh. A sharp edge ends in one of them, at (6, 4), such
-/// that the two quads beside the next point are inverted; further back along the edge they would not be.
+/// Nine quads on a square with sides of 24, at vertices of the mesh. A sharp edge ends in a point of them at (x, 8),
+/// and the next point stands such that quads beside it are inverted or nearly so; further back along the edge none is.
 struct FadingEdge
 {
-  static constexpr Index kSide = 12, kEnd = 5;
+  static constexpr Index kSide = 24, kEnd = 5;
   Mesh mesh;
   QuadMesh quads;
   std::vector<Index> others; ///< vertices of the mesh but for the end
 
-  explicit FadingEdge(std::uint8_t flags)
+  FadingEdge(std::uint8_t flags, Index endX, std::array<Index, 2> next)
   {
     const auto at = [](Index x, Index y) { return y * (kSide + 1) + x; };
     std::vector<Vector3> points;
@@ -112,7 +112,7 @@ struct FadingEdge
     for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
     {
       const Vector3 middle = (mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2;
-      if (middle.y() == 4 && mesh.edgeVector(h).y() == 0 && middle.x() < 6)
+      if (middle.y() == 8 && mesh.edgeVector(h).y() == 0 && middle.x() < endX)
       {
         mesh.flags.edit()[h] = flags;
       }
@@ -120,10 +120,10 @@ struct FadingEdge
     std::vector<Index> vertices;
     for (Index i = 0; i < 16; ++i)
     {
-      vertices.push_back(at(i % 4 * 4, i / 4 * 4));
+      vertices.push_back(at(i % 4 * 8, i / 4 * 8));
     }
-    vertices[kEnd] = at(6, 4);
-    vertices[kEnd + 1] = at(6, 2);
+    vertices[kEnd] = at(endX, 8);
+    vertices[kEnd + 1] = at(next[0], next[1]);
     for (Index v = 0; v < mesh.vertexCount(); ++v)
     {
       if (v != vertices[kEnd])
@@ -203,14 +203,14 @@ TEST(QuadUntangling, MendsAllOfAPlane)
   }
 }
 
-TEST(QuadUntangling, MovesNothingButPointsNearInvertedQuads)
+TEST(QuadUntangling, MovesNothingButPointsNearBadQuads)
 {
   const GridMapCase c = crumpledPlane(40, 30, 4, 50000);
   const QuadMesh raw = rawQuads(c);
   QuadMesh mesh = raw;
   untangleQuads(c.mesh, mesh, {});
   std::vector<Vector3> centres;
-  for (const Index q : invertedQuads(raw.points, raw.quads))
+  for (const Index q : badQuads(raw.points, raw.quads))
   {
     const std::array<Vector3, 4> p = quadrille::cornersOf(raw.points, raw.quads[q]);
     centres.push_back((p[0] + p[1] + p[2] + p[3]) / 4);
@@ -233,7 +233,7 @@ TEST(QuadUntangling, LeavesMeshesWithoutSuchQuadsAlone)
   for (const GridMapCase& c : allCases(2))
   {
     const QuadMesh raw = rawQuads(c);
-    if (invertedCount(raw) == 0)
+    if (badQuads(raw.points, raw.quads).empty())
     {
       QuadMesh mesh = raw;
       EXPECT_EQ(untangleQuads(c.mesh, mesh, {}).invertedBefore, 0u);
@@ -255,20 +255,29 @@ TEST(QuadUntangling, WhatCannotBeMendedStaysAsItWas)
 // Where a detected sharp edge fades away is no place of its own; where one ends that was asked for is.
 TEST(QuadUntangling, EndsOfDetectedEdgesMoveAlongThem)
 {
-  FadingEdge detected(kFeatureEdge);
+  FadingEdge detected(kFeatureEdge, 12, { 12, 4 });
   const QuadMesh before = detected.quads;
   const UntanglingResult result =
     untangleQuads(detected.mesh, detected.quads, { detected.others, 1 });
   EXPECT_EQ(result.invertedBefore, 2u);
   EXPECT_EQ(result.invertedAfter, 0u);
   const Vector3& end = detected.quads.points[FadingEdge::kEnd];
-  EXPECT_EQ(end.y(), 4);
-  EXPECT_LT(end.x(), 4);
+  EXPECT_EQ(end.y(), 8);
+  EXPECT_LT(end.x(), 8);
   EXPECT_GT(end.x(), 0);
 
-  FadingEdge asked(kFeatureEdge | kRequestedFeature);
+  FadingEdge asked(kFeatureEdge | kRequestedFeature, 12, { 12, 4 });
   untangleQuads(asked.mesh, asked.quads, { asked.others, 1 });
   expectSamePlaces(asked.quads, before);
+}
+
+TEST(QuadUntangling, MendsQuadsThatAreNearlyInverted)
+{
+  FadingEdge edge(kFeatureEdge, 11, { 13, 5 });
+  ASSERT_EQ(invertedCount(edge.quads), 0u);
+  ASSERT_EQ(badQuads(edge.quads.points, edge.quads.quads).size(), 1u);
+  untangleQuads(edge.mesh, edge.quads, { edge.others, 1 });
+  EXPECT_TRUE(badQuads(edge.quads.points, edge.quads.quads).empty());
 }
 
 TEST(QuadUntangling, SameBytesForAnyNumberOfThreads)
