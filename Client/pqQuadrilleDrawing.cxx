@@ -963,8 +963,10 @@ void pqQuadrilleDrawing::remove(vtkSMSourceProxy* filter, vtkSMSourceProxy* cons
       {
         pqApplicationCore::instance()->getUndoStack()->undo();
         say(QString("%1: stopped, and brought back.").arg(name));
-        return;
       }
-      say(QString("%1 was taken away. Ctrl+Z brings it back.").arg(name));
+      else if (how == pqQuadrilleRun::End::Shown)
+      {
+        say(QString("%1 was taken away. Ctrl+Z brings it back.").arg(name));
+      }
     });
 }
