@@ -32,6 +32,8 @@ MET_ANGLE = 5    # degrees in the mean, as the Constraint Table has it for strok
 MET_OFF = 0.3    # edge lengths, as the table has it for feature curves
 DOUBT = 2.5      # degrees in which two ways to measure the mean may differ
 WIDTH = count_actions.WIDTH
+FILE_MENU = 20, 10      # pixels of the screen
+CLOSE_VIEW = 1864, 222
 SELECTED = bytes((48, 140, 198))  # of the pipeline
 COVERED = 280  # pixels at the lower end of the view, where the window Output Messages may lie
 TOOLS = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature", "Size")  # in their order
@@ -507,6 +509,22 @@ def check_delete(session, chance):
     return not (underway and gone and back)
 
 
+def check_close(session):
+    """The window lives on where its view is closed, or its server left, while a tool is on. No questions afterwards."""
+    session.ask("clear()")
+    session.take("Stroke")
+    if session.remote:
+        session.xdotool("mousemove", *FILE_MENU, "click", 1, "sleep", 0.5, "key", "d", "sleep", 0.5, "key", "Return")
+    else:
+        session.xdotool("mousemove", *CLOSE_VIEW, "sleep", 0.2, "click", 1)
+    time.sleep(3)
+    session.shot("draw-closed")
+    lives = session.paraview.poll() is None
+    grey = [saturation(session, name) for name in TOOLS]
+    print(f"{'left the server' if session.remote else 'closed the view'} with a tool on: lives {lives}, tools {grey}")
+    return not (lives and (max(grey) < 30 or not session.remote))
+
+
 def ring_pixels(session, pixel):
     """How many pixels in the orange of the rings there are round a pixel of the view."""
     x, y = session.screen([round(c) for c in pixel])
@@ -556,7 +574,7 @@ def check_trace(folder, options, chance):
 CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _: check_camera(s, c),
           "undo": lambda s, c, _: check_undo(s, c), "ball": lambda s, c, _: check_ball(s, c),
           "stop": lambda s, c, _: check_stop(s, c), "handles": check_handles,
-          "delete": lambda s, c, _: check_delete(s, c)}
+          "delete": lambda s, c, _: check_delete(s, c), "close": lambda s, c, _: check_close(s)}
 
 
 def main():
