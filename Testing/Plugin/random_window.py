@@ -5,12 +5,12 @@
   random_window.py XVFB PARAVIEW PVPYTHON PVBATCH PVSERVER MPIEXEC OPENBOX [--sessions N] [--edits N] [--seed N]
                    [--first N] [--surface FILE...]
 
-A session: a surface is opened, quads are made, and random tools draw at random visible places, with *Remove Last*, undo,
-redo and another *Number Of Quads* among them, all recorded. Its trace, and the state that is saved at last as .pvsm and
-as .py, are run in pvpython, in pvbatch on two ranks, and in pvpython through a server. What has other bytes, or other
-constraints, is told with BAD. *Rank Independent* is *Always* by defaults that this window has and the replays have not:
-a surface in one piece keeps its own order else, and ranks have another one. All random choices come from the seed.
-ctest runs one short session; needs Debian's openbox and xdotool.
+A session: a surface is opened, quads are made, and random tools draw at random visible places, with *Remove Last*,
+dragged points, undo, redo and another *Number Of Quads* among them, all recorded. Its trace, and the state saved at
+last as .pvsm and as .py, are run in pvpython, in pvbatch on two ranks, and in pvpython through a server. What has
+other bytes, or other constraints, is told with BAD. *Rank Independent* is *Always* by defaults that this window has and
+the replays have not: a surface in one piece keeps its own order else, and ranks have another one. All random choices
+come from the seed. ctest runs one short session; needs Debian's openbox and xdotool.
 """
 import argparse
 import json
