@@ -26,6 +26,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace quadrille
@@ -143,11 +144,15 @@ private:
       sources_ = proxiesOf("sources");
       visible_ = pictures();
       since_.Modified();
+      // The window selects what comes again before the trace has it.
+      blocked_ = std::make_unique<vtkSMTrace::TraceItem>("BlockTraceItems");
+      *blocked_ = vtkSMTrace::TraceItemArgs();
     }
   }
 
   void end()
   {
+    blocked_.reset();
     if (vtkSMTrace::GetActiveTracer())
     {
       const pqScopedUndoExclude noStepOfTheUser;
@@ -211,7 +216,8 @@ private:
   vtkWeakPointer<vtkSMUndoStack> stack_;
   std::array<unsigned long, 2> observers_{};
   vtkTimeStamp since_;
-  Proxies sources_; ///< before the step
+  std::unique_ptr<vtkSMTrace::TraceItem> blocked_; ///< during a step nothing else is traced
+  Proxies sources_;                                ///< before the step
   Pictures visible_;
 };
 
