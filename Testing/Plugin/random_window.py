@@ -6,11 +6,11 @@
                    [--first N] [--surface FILE...]
 
 A session: a surface is opened, quads are made, and random tools draw at random visible places, with *Remove Last*,
-dragged points, undo, redo and another *Number Of Quads* among them, all recorded. Its trace, and the state saved at
-last as .pvsm and as .py, are run in pvpython, in pvbatch on two ranks, and in pvpython through a server. What has
-other bytes, or other constraints, is told with BAD. *Rank Independent* is *Always* by defaults that this window has and
-the replays have not: a surface in one piece keeps its own order else, and ranks have another one. All random choices
-come from the seed. ctest runs one short session; needs Debian's openbox and xdotool.
+dragged points, undo, redo and another *Number Of Quads* among them and an undo at last, all recorded. Its trace, and
+the state saved at last as .pvsm and as .py, are run in pvpython, in pvbatch on two ranks, and in pvpython through a
+server. What has other bytes, or other constraints, is told with BAD. *Rank Independent* is *Always* by defaults that
+this window has and the replays have not: a surface in one piece keeps its own order else, and ranks have another one.
+All random choices come from the seed. ctest runs one short session; needs Debian's openbox and xdotool.
 """
 import argparse
 import json
@@ -77,9 +77,9 @@ class Session(test_draw.Session):
         return bool(found)
 
 
-def edit(session, chance, first):
-    """One random edit, in words; None where there is no place for it. first: steps that are no edits."""
-    kind = chance.choice((*DRAWN, *DRAWN, *BUTTONS))
+def edit(session, chance, first, kind=None):
+    """One edit, a random one unless told, in words; None where there is no place for it. first: steps that are none."""
+    kind = kind or chance.choice((*DRAWN, *DRAWN, *BUTTONS))
     undone, redone = session.steps()
     if (kind == "Undo" and undone <= first) or (kind == "Redo" and redone == 0) or \
             (kind in ("Remove", "Drag") and not session.value("len(constraints())")):
@@ -133,6 +133,8 @@ def session_of(folder, options, number):
             if len(words) < options.edits:
                 word = edit(session, chance, first)
                 words += [word] if word else []
+        # Each edit writes all constraints into a trace, so only what comes last shows whether an undo is in it.
+        words.append(edit(session, chance, first, "Undo"))
         made = *session.value("bytes_of(quads())"), len(session.value("constraints()"))
         print(f"session {number}, {session.surface.name}: {', '.join(words)}; made {made}", flush=True)
         if len(words) < options.edits or (made[:2] == begun and made[2] > 0):
