@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "UndoInTrace.h"
 #include "WindowPauses.h"
 #include "pqQuadrilleHandles.h"
 #include "pqQuadrilleToolBar.h"
@@ -33,6 +34,7 @@ void placeToolBar()
     window->addToolBarBreak(Qt::TopToolBarArea);
     window->addToolBar(Qt::TopToolBarArea, bar);
     new pqQuadrilleHandles(bar);
+    quadrille::traceUndo(bar);
     quadrille::writePauses(bar);
   }
 }

@@ -185,10 +185,12 @@ void pqQuadrilleDrawing::listenTo(pqView* view)
   QObject::connect(
     renderView, &pqView::endRender, this->Overlay, [this] { this->showFirstBall(); });
   renderView->widget()->setCursor(Qt::CrossCursor);
-  vtkRenderWindowInteractor* interactor = this->viewProxy()->GetInteractor();
-  const auto observe = [this, interactor](unsigned long event,
+  this->Interactor = this->viewProxy()->GetInteractor();
+  const auto observe = [this](unsigned long event,
                          bool (pqQuadrilleDrawing::*answer)(vtkObject*, unsigned long, void*))
-  { this->Observers.push_back(interactor->AddObserver(event, this, answer, kBeforeAllOthers)); };
+  {
+    this->Observers.push_back(this->Interactor->AddObserver(event, this, answer, kBeforeAllOthers));
+  };
   observe(vtkCommand::LeftButtonPressEvent, &pqQuadrilleDrawing::onPress);
   observe(vtkCommand::LeftButtonDoubleClickEvent, &pqQuadrilleDrawing::onPress);
   observe(vtkCommand::MouseMoveEvent, &pqQuadrilleDrawing::onMove);
@@ -200,12 +202,15 @@ void pqQuadrilleDrawing::listenTo(pqView* view)
 //-----------------------------------------------------------------------------
 void pqQuadrilleDrawing::stopListening()
 {
-  if (this->View)
+  for (const unsigned long observer : this->Observers)
   {
-    for (const unsigned long observer : this->Observers)
+    if (this->Interactor)
     {
-      this->viewProxy()->GetInteractor()->RemoveObserver(observer);
+      this->Interactor->RemoveObserver(observer);
     }
+  }
+  if (this->View && this->View->widget()) // a view that is being closed has none
+  {
     this->View->widget()->unsetCursor();
   }
   this->Observers.clear();
@@ -963,8 +968,10 @@ void pqQuadrilleDrawing::remove(vtkSMSourceProxy* filter, vtkSMSourceProxy* cons
       {
         pqApplicationCore::instance()->getUndoStack()->undo();
         say(QString("%1: stopped, and brought back.").arg(name));
-        return;
       }
-      say(QString("%1 was taken away. Ctrl+Z brings it back.").arg(name));
+      else if (how == pqQuadrilleRun::End::Shown)
+      {
+        say(QString("%1 was taken away. Ctrl+Z brings it back.").arg(name));
+      }
     });
 }

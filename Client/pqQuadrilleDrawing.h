@@ -22,6 +22,7 @@ class pqQuadrilleOverlay;
 class pqRenderView;
 class pqView;
 class vtkObject;
+class vtkRenderWindowInteractor;
 class vtkSMQuadConstraintProxy;
 class vtkSMRenderViewProxy;
 class vtkSMSourceProxy;
@@ -134,6 +135,7 @@ private:
   double SizeFactor = 0.5;
   QPointer<pqRenderView> View;
   QPointer<pqQuadrilleOverlay> Overlay;
+  vtkWeakPointer<vtkRenderWindowInteractor> Interactor; ///< of the view, which may be closed
   std::vector<unsigned long> Observers;
 
   bool IsDrawing = false;                   ///< the button is down

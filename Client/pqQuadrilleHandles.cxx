@@ -90,10 +90,11 @@ void pqQuadrilleHandles::watchView(pqView* view)
   this->View = renderView;
   this->Overlay = new pqQuadrilleOverlay(renderView->widget());
   QObject::connect(renderView, &pqView::endRender, this->Overlay, [this] { this->showRings(); });
-  vtkRenderWindowInteractor* interactor = this->viewProxy()->GetInteractor();
-  const auto observe = [this, interactor](unsigned long event,
-                         bool (pqQuadrilleHandles::*answer)(vtkObject*, unsigned long, void*))
-  { this->Observers.push_back(interactor->AddObserver(event, this, answer, kBeforeParaView)); };
+  this->Interactor = this->viewProxy()->GetInteractor();
+  const auto observe = [this](unsigned long event,
+                         bool (pqQuadrilleHandles::*answer)(vtkObject*, unsigned long, void*)) {
+    this->Observers.push_back(this->Interactor->AddObserver(event, this, answer, kBeforeParaView));
+  };
   observe(vtkCommand::LeftButtonPressEvent, &pqQuadrilleHandles::onPress);
   observe(vtkCommand::MouseMoveEvent, &pqQuadrilleHandles::onMove);
   observe(vtkCommand::LeftButtonReleaseEvent, &pqQuadrilleHandles::onRelease);
@@ -103,11 +104,11 @@ void pqQuadrilleHandles::watchView(pqView* view)
 //-----------------------------------------------------------------------------
 void pqQuadrilleHandles::stopWatching()
 {
-  if (this->View)
+  for (const unsigned long observer : this->Observers)
   {
-    for (const unsigned long observer : this->Observers)
+    if (this->Interactor)
     {
-      this->viewProxy()->GetInteractor()->RemoveObserver(observer);
+      this->Interactor->RemoveObserver(observer);
     }
   }
   this->Glide.stop();

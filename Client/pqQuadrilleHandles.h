@@ -20,6 +20,7 @@ class pqQuadrilleOverlay;
 class pqRenderView;
 class pqView;
 class vtkObject;
+class vtkRenderWindowInteractor;
 class vtkSMQuadConstraintProxy;
 class vtkSMRenderViewProxy;
 class vtkSMSourceProxy;
@@ -64,6 +65,7 @@ private:
   vtkWeakPointer<vtkSMQuadConstraintProxy> Constraint;
   QPointer<pqRenderView> View;
   QPointer<pqQuadrilleOverlay> Overlay;
+  vtkWeakPointer<vtkRenderWindowInteractor> Interactor; ///< of the view, which may be closed
   std::vector<unsigned long> Observers;
 
   std::vector<quadrille::Place> Points;

@@ -159,7 +159,7 @@ void pqQuadrilleRun::look()
 {
   if (!this->Filter)
   {
-    this->end(End::Stopped); // it was deleted
+    this->end(End::Gone);
   }
   else if (ask(this->Filter, "GetIsUnderway") == 0)
   {

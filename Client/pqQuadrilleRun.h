@@ -32,7 +32,8 @@ public:
   enum class End
   {
     Shown,
-    Stopped
+    Stopped,
+    Gone ///< the filter was deleted, or its server left, before: there is nothing to take back
   };
   using Then = std::function<void(End)>;
 
@@ -42,7 +43,7 @@ public:
   /// From now on an execution of the filter, by whatever is shown of it, only begins the run that start() then follows.
   static void prepare(vtkSMSourceProxy* filter);
 
-  /// Executes the filter; then: what is done when its quads are shown, or when it was stopped. Where one run takes the
+  /// Executes the filter; then: what is done when its quads are shown, or will not be. Where one run takes the
   /// place of another what was to be done after that one is done after this one.
   void start(vtkSMSourceProxy* filter, Then then);
   /// The same for a preview, of which the status bar tells nothing, and which Escape does not stop.

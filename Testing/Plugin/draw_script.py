@@ -9,12 +9,14 @@ import math
 import random
 
 import numpy
+from paraview import servermanager
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkCutter, vtkStripper
 
 import places_script  # whose questions are answered, too
-from places_script import is_clear, output, pixel_of, quads, seen_at, view
+import window_answers
+from places_script import edge_length, is_clear, output, pixel_of, quads, seen_at, view
 
 
 COVERED = 280  # pixels at the lower end of the view, where the window Output Messages may lie
@@ -213,6 +215,33 @@ def last_row(kind):
     if not rows:
         return None
     return table.GetValueByName(rows[-1], "Met").ToInt(), table.GetValueByName(rows[-1], "Reason").ToString()
+
+
+def steps():
+    """How many steps can be undone, and redone."""
+    stack = servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder().GetUndoStack()
+    return stack.GetNumberOfUndoSets(), stack.GetNumberOfRedoSets()
+
+
+def point_seen():
+    """The pixel of a point of the last constraint that is clearly seen; None where there is none."""
+    for place in constraints()[-1][1]:
+        pixel = tuple(round(c) for c in pixel_of(place))
+        seen = seen_at(pixel) if 20 < pixel[0] < view.ViewSize[0] - 20 and COVERED < pixel[1] else None
+        if seen is not None and math.dist(seen, place) < edge_length() / 4 and is_clear(pixel, seen, edge_length() / 2):
+            return pixel
+    return None
+
+
+def set_defaults(text):
+    """Defaults of properties, as the file of a user's settings has them."""
+    servermanager.vtkSMSettings.GetInstance().AddCollectionFromString(text, 10)
+
+
+def set_quietly(name, value):
+    """Sets a property of the filter, which is no step that could be undone."""
+    with window_answers.no_step_of_the_user():
+        setattr(quads(), name, value)
 
 
 vars(places_script).update({name: thing for name, thing in list(globals().items()) if callable(thing)})

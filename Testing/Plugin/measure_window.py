@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How long ParaView's real window stands still while it is worked with, and how often the quads follow the mouse.
 
-  measure_window.py XVFB PARAVIEW OPENBOX SURFACE [--quads N] [--walks NAME...] [--drag SECONDS]
+  measure_window.py XVFB PARAVIEW OPENBOX SURFACE [--quads N] [--walks NAME...] [--drag SECONDS] [--server WORD...]
 
 A timer in the window (QUADRILLE_WINDOW_PAUSES) writes each time in which no events were taken up. Each walk is done by
 the mouse; for each the longest of these times is printed, and how many were longer than 0.3 s. While a ball or a handle
@@ -45,8 +45,9 @@ class Session(test_draw.Session):
         """Notes each picture of the view: when it was, and which quads it shows."""
         self.ask("pictures = []\n"
                  "def note(*_):\n"
-                 "    points = output(0).GetPoints() if quads() and output(0) else None\n"
-                 "    pictures.append((time.time(), points.GetMTime() if points else 0))\n"
+                 "    shown = simple.GetRepresentation(quads(), view) if quads() else None\n"
+                 "    data = shown.GetClientSideObject().GetRenderedDataObject(0) if shown else None\n"
+                 "    pictures.append((time.time(), data.GetMTime() if data else 0))\n"
                  "import time\n"
                  "view.GetRenderWindow().AddObserver('EndEvent', note)")
 
@@ -127,7 +128,9 @@ def main():
     parser.add_argument("--walks", nargs="*", default=list(WALKS))
     parser.add_argument("--drag", type=float, default=3)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--server", nargs="+", default=())
     options = parser.parse_args()
+    Session.pvserver = options.server
     with tempfile.TemporaryDirectory() as folder:
         session = Session(pathlib.Path(folder), options)
         session.surface = options.surface

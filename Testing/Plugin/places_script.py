@@ -9,12 +9,12 @@ import os
 
 import numpy
 import quadrille  # the raw classes behind the proxies
-from paraview import simple, smtrace
+from paraview import simple, smstate, smtrace
 from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 
 import window_answers
-from window_answers import bytes_of
+from window_answers import bytes_of, verdict_of
 
 simple.LoadPlugin(os.environ["QUADRILLE_PLUGIN"], remote=False, ns=globals())
 view = simple.GetActiveViewOrCreate("RenderView")
@@ -25,12 +25,20 @@ def quads():
 
 
 def output(port):
-    return quads().GetClientSideObject().GetOutputDataObject(port)
+    return window_answers.data_of(quads(), port)
 
 
 def is_made():
     """Whether no quads are being made in the background."""
-    return not quads() or not quads().GetClientSideObject().GetInBackground()
+    if not quads():
+        return True
+    here = quads().GetClientSideObject()
+    return not here.GetInBackground() if here else not verdict_of(quads()).startswith("Underway")
+
+
+def is_whole():
+    """Whether the quads are no preview."""
+    return not verdict_of(quads()).startswith("preview")
 
 
 def edge_length():

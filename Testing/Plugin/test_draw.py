@@ -3,12 +3,14 @@
 """The drawing tools in ParaView's real window, under openbox at its defaults, by the mouse at random places.
 
   test_draw.py XVFB PARAVIEW PVPYTHON OPENBOX [--tools NAME...] [--places N] [--surface FILE...] [--seed N]
+               [--checks NAME...] [--server WORD...]
 
 Opens each surface and makes quads by keyboard. With each tool so many random places, or paths, are drawn where the
 surface is clearly seen. Then the constraint, and the quads, are compared with the places under the mouse, which rays
 from the camera tell: half an edge length of the quads is allowed. What the table of constraints says is compared with
 the quads themselves. Then it is tried that Escape leaves the tool, and that one undo takes back one action. At last a
-session is traced, and the trace run in pvpython: same bytes.
+session is traced, and the trace run in pvpython: same bytes. With --server the window is connected to what these words
+start, such as pvserver.
 Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox and xdotool.
 """
 import argparse
@@ -30,6 +32,9 @@ MET_ANGLE = 5    # degrees in the mean, as the Constraint Table has it for strok
 MET_OFF = 0.3    # edge lengths, as the table has it for feature curves
 DOUBT = 2.5      # degrees in which two ways to measure the mean may differ
 WIDTH = count_actions.WIDTH
+FILE_MENU = 20, 10      # pixels of the screen
+CLOSE_VIEW = 1864, 222
+SELECTED = bytes((48, 140, 198))  # of the pipeline
 COVERED = 280  # pixels at the lower end of the view, where the window Output Messages may lie
 TOOLS = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature", "Size")  # in their order
 
@@ -420,7 +425,7 @@ def check_handles(session, chance, count):
         session.xdotool("mouseup", 1)
         session.settle()
         off = math.dist(session.drawn()[1][0], place) / session.edge
-        whole = session.value("quads().GetClientSideObject().GetPreview()") == 0
+        whole = session.value("is_whole()")
         met, reason = session.word("valence") or (None, "no row")
         after = ring_pixels(session, goal)
         session.xdotool("mousemove", *session.middle(), "key", "ctrl+z", "sleep", 1)
@@ -480,6 +485,46 @@ def check_stop(session, chance):
     return bad
 
 
+def check_delete(session, chance):
+    """A Quad Remesh that is deleted while its quads are made is gone, and one undo brings it back."""
+    session.ask("clear(); quads().NumberOfQuads = 150000; simple.Render(view)", seconds=120)
+    session.look(270, 20)
+    session.take("Valence")
+    session.xdotool("mousemove", *session.screen(session.places(chance, 1)[0][0]), "sleep", 0.2, "click", 1)
+    session.wait_until("not is_made()")
+    session.ask("simple.SetActiveSource(quads())")
+    time.sleep(0.3)
+    rows = session.rows()
+    selected = [(x, y) for y in range(200, 420) for x in range(30, 280, 4) if rows[y][3 * x:3 * x + 3] == SELECTED]
+    session.xdotool("mousemove", *selected[len(selected) // 2], "click", 1, "sleep", 0.1)
+    underway = not session.value("is_made()")
+    session.xdotool("key", "Delete", "sleep", 1)
+    gone = session.value("quads() is None")
+    session.shot("draw-deleted")
+    session.xdotool("mousemove", *session.middle(), "key", "ctrl+z", "sleep", 1)
+    session.settle()
+    back = session.value("quads() is not None and output(0).GetNumberOfCells() > 0")
+    session.xdotool("key", "Escape")
+    print(f"deleted while quads are made {underway}: gone {gone}, back by undo {back}")
+    return not (underway and gone and back)
+
+
+def check_close(session):
+    """The window lives on where its view is closed, or its server left, while a tool is on. No questions afterwards."""
+    session.ask("clear()")
+    session.take("Stroke")
+    if session.remote:
+        session.xdotool("mousemove", *FILE_MENU, "click", 1, "sleep", 0.5, "key", "d", "sleep", 0.5, "key", "Return")
+    else:
+        session.xdotool("mousemove", *CLOSE_VIEW, "sleep", 0.2, "click", 1)
+    time.sleep(3)
+    session.shot("draw-closed")
+    lives = session.paraview.poll() is None
+    grey = [saturation(session, name) for name in TOOLS]
+    print(f"{'left the server' if session.remote else 'closed the view'} with a tool on: lives {lives}, tools {grey}")
+    return not (lives and (max(grey) < 30 or not session.remote))
+
+
 def ring_pixels(session, pixel):
     """How many pixels in the orange of the rings there are round a pixel of the view."""
     x, y = session.screen([round(c) for c in pixel])
@@ -525,15 +570,25 @@ def check_trace(folder, options, chance):
     return bad
 
 
+#: Each with a session, random choices and a number of places.
+CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _: check_camera(s, c),
+          "undo": lambda s, c, _: check_undo(s, c), "ball": lambda s, c, _: check_ball(s, c),
+          "stop": lambda s, c, _: check_stop(s, c), "handles": check_handles,
+          "delete": lambda s, c, _: check_delete(s, c), "close": lambda s, c, _: check_close(s)}
+
+
 def main():
     parser = argparse.ArgumentParser()
     for program in ("xvfb", "paraview", "pvpython", "openbox"):
         parser.add_argument(program)
     parser.add_argument("--tools", nargs="*", default=TOOLS)
+    parser.add_argument("--checks", nargs="*", choices=[*CHECKS, "trace"], default=[*CHECKS, "trace"])
+    parser.add_argument("--server", nargs="+", default=())
     parser.add_argument("--places", type=int, default=20)
     parser.add_argument("--seed", type=int, default=35)
     parser.add_argument("--surface", nargs="+", type=pathlib.Path, default=[test_places.SURFACE])
     options = parser.parse_args()
+    Session.pvserver = options.server
     bad = 0
     for surface in options.surface:
         with tempfile.TemporaryDirectory() as folder:
@@ -547,17 +602,18 @@ def main():
                 for name in options.tools:
                     wrong = try_tool(session, name, random.Random(options.seed), options.places)
                     bad += wrong if wrong > (1 - BAR) * options.places else 0
-                for check in (check_escape, check_camera, check_undo, check_ball, check_stop):
-                    bad += check(session, random.Random(options.seed + 1))
-                bad += check_handles(session, random.Random(options.seed + 3), options.places)
+                for name, check in CHECKS.items():
+                    if name in options.checks:
+                        bad += check(session, random.Random(options.seed + 1), options.places)
             except BaseException:
                 session.shot("draw-failure")
                 raise
             finally:
                 print((folder / "log").read_text(encoding="utf-8"))
                 session.close()
-    with tempfile.TemporaryDirectory() as folder:
-        bad += check_trace(pathlib.Path(folder), options, random.Random(options.seed + 2))
+    if "trace" in options.checks:
+        with tempfile.TemporaryDirectory() as folder:
+            bad += check_trace(pathlib.Path(folder), options, random.Random(options.seed + 2))
     if bad:
         sys.exit(f"FAILED: {bad} of the checks above")
     print("drawing: fine")

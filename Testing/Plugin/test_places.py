@@ -23,6 +23,7 @@ import tempfile
 import time
 
 import count_actions
+import paraview_server
 import private_display
 
 SURFACE = pathlib.Path(os.environ["QUADRILLE_DATA"]) / "beast.ply"
@@ -35,6 +36,7 @@ class Session(count_actions.Window):
 
     script = "places_script.py"
     surface = SURFACE
+    pvserver = ()  # what starts a server that the window is connected to; empty: none
 
     def __init__(self, folder, programs):
         self.programs = programs
@@ -45,11 +47,15 @@ class Session(count_actions.Window):
         script = pathlib.Path(__file__).with_name(self.script)
         self.manager = subprocess.Popen([programs.openbox], env=environment, stdout=subprocess.DEVNULL,
                                         stderr=subprocess.DEVNULL)
+        self.remote = paraview_server.Server(self.pvserver, environment) if self.pvserver else None
+        connection = [f"--url=cs://127.0.0.1:{self.remote.port}"] if self.remote else []
         with open(folder / "log", "w", encoding="utf-8") as output:
-            self.paraview = subprocess.Popen([programs.paraview, "--dr", f"--script={script}"], env=environment,
-                                             stdout=output, stderr=subprocess.STDOUT)
+            self.paraview = subprocess.Popen([programs.paraview, "--dr", f"--script={script}", *connection],
+                                             env=environment, stdout=output, stderr=subprocess.STDOUT)
 
     def close(self):
+        if self.remote:
+            self.remote.stop()
         for process in (self.paraview, self.manager, self.server):
             private_display.stop(process)
 

@@ -2,48 +2,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plugin on a pvserver and on its client: test_pvserver.py PVSERVER."""
 import os
-import re
-import subprocess
 import sys
 import tempfile
-import threading
 import traceback
 
 from paraview import servermanager, simple
 from vtkmodules.vtkCommonCore import vtkLogger
 
+import paraview_server
 import quadrille
 from plugin_common import PLUGIN, check, number, size_of, surface
 
 
-listening = threading.Event()
-listening.set()
-
-
-def pass_on(server):
-    for line in server.stdout:
-        if listening.is_set():
-            print("server:", line, end="", flush=True)
-
-
-def start(pvserver):
-    """Starts a server on a free port, waits until it listens; returns the process and its port."""
-    import socket
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    server = subprocess.Popen([pvserver, f"--server-port={port}"], stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True)
-    for line in server.stdout:
-        if re.search("Accepting connection|Waiting for client", line):
-            break
-    # What it says afterwards belongs to the test's output, errors above all.
-    threading.Thread(target=pass_on, args=(server,), daemon=True).start()
-    return server, port
-
-
-def run(port):
-    simple.Connect("127.0.0.1", port)
+def run(server):
+    simple.Connect("127.0.0.1", server.port)
     simple.LoadPlugin(PLUGIN, remote=True, ns=globals())
     simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
     mesh = surface(simple)
@@ -92,7 +64,7 @@ def run(port):
                   f"with {function} these stages ran: {stages}")
 
     # A failure on the server is raised on the client. The line that both print of it is wanted, hence the last.
-    listening.clear()
+    server.is_heard.clear()
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     bad = QuadRemesh(Input=mesh, TargetType="Edge Length", EdgeLength=-1)
     for proxy in (bad, simple.Calculator(Input=bad, Function="1")):
@@ -104,17 +76,15 @@ def run(port):
             check(False, "a failure on the server is not noticed")
 
 
-server, port = start(sys.argv[1])
+server = paraview_server.Server([sys.argv[1]])
 failed = 0
 try:
-    run(port)
+    run(server)
     print("pvserver: fine", flush=True)
 except BaseException:
     traceback.print_exc()
     failed = 1
-# The server may outlive its client, and the client complains of its end; neither is a result of the test.
-listening.clear()
-server.kill()
-server.wait(timeout=10)
+# The client complains of the server's end, which is no result of the test.
+server.stop()
 sys.stderr.flush()
 os._exit(failed)

@@ -10,6 +10,7 @@ import io
 import os
 import traceback
 
+from paraview import servermanager
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
@@ -23,6 +24,7 @@ def serve(view, names):
         with open(question, encoding="utf-8") as file:
             text = file.read()
         os.remove(question)
+        fetched.clear()
         out = io.StringIO()
         try:
             with contextlib.redirect_stdout(out):
@@ -39,9 +41,45 @@ def serve(view, names):
     return interactor
 
 
+fetched = {}  # what a question has fetched from a server, by proxy and port
+
+
+def data_of(proxy, port=0):
+    """An output of a filter's proxy; that of one on a server is fetched, once for each question."""
+    here = proxy.GetClientSideObject()
+    if here:
+        return here.GetOutputDataObject(port)
+    key = proxy.GetGlobalIDAsString(), port
+    if key not in fetched:
+        with no_step_of_the_user():
+            fetched[key] = servermanager.Fetch(proxy, idx=port)
+    return fetched[key]
+
+
+@contextlib.contextmanager
+def no_step_of_the_user():
+    """What is asked inside is not put on the stack of undos."""
+    builder = servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder()
+    if not builder:
+        yield  # no window
+        return
+    before = builder.GetIgnoreAllChanges()
+    builder.SetIgnoreAllChanges(True)
+    try:
+        yield
+    finally:
+        builder.SetIgnoreAllChanges(before)
+
+
+def verdict_of(quads):
+    """As the panel shows it."""
+    quads.UpdatePropertyInformation()
+    return quads.GetPropertyValue("Verdict")
+
+
 def bytes_of(quads):
     """A fingerprint of places and connectivity of the first output of a filter's proxy, and the number of quads."""
-    data = quads.GetClientSideObject().GetOutputDataObject(0)
+    data = data_of(quads)
     polys = data.GetPolys()
     arrays = (data.GetPoints().GetData(), polys.GetOffsetsArray(), polys.GetConnectivityArray())
     digest = hashlib.sha256()
