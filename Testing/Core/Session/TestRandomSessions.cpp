@@ -25,7 +25,8 @@ class RandomSession
 {
 public:
   RandomSession(SurfaceInput surface, std::size_t quads, std::uint32_t seed)
-    : session_(surface, sessionOptions(quads)), surface_(std::move(surface)), random_(seed)
+    : session_(surface, sessionOptions(quads)), surface_(std::move(surface)), random_(seed),
+      number_(quads)
   {
     quads_.emplace_back();
     for (const Vector3& p : surface_.points)
@@ -131,7 +132,7 @@ private:
     switch (upTo(4))
     {
       case 0:
-        settings.quads = 100 + upTo(400);
+        settings.quads = number_ / 2 + upTo(2 * number_); // much fewer would close handles
         break;
       case 1:
         settings.smoothingSteps = static_cast<int>(upTo(4));
@@ -286,6 +287,7 @@ private:
   Session session_;
   SurfaceInput surface_;
   std::mt19937 random_;
+  std::size_t number_; ///< of quads, at first
   double size_ = 0;
   std::optional<int> euler_;
   std::vector<std::optional<QuadMesh>> quads_; ///< of every state in the history, once it is made
