@@ -68,7 +68,7 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
   { "transfer", "shapes again", "the surface's shapes from a valid map of a patch", "1" },
   { "extraction", "more corners", "a polygon of the boundary with more corners",
     "stops of the face" },
-  { "quads", "wider untangling", "two, four, eight rings round bad quads may move", "4" },
+  { "quads", "wider untangling", "two, four, eight rings round inverted quads may move", "4" },
   { "quads", "other edges", "quads round a bad one are replaced, see QuadRepair.h", "4 rounds" },
   { "elements", "node moved further", "a node nearer to the straight edge", "4" },
   { "elements", "centre otherwise", "the centre by the other pair of edges, or the nearest place",

@@ -16,7 +16,7 @@ namespace quadrille
 namespace
 {
 
-/// So many rings of quads round those that are bad may move; the next number where some are left.
+/// So many rings of quads round those that are bad may move; the next number round those that are inverted then.
 constexpr int kRingsThatMove[] = { 1, 2, 4, 8 };
 constexpr int kMostUntanglingSweeps = 30;
 /// A sweep that lowers the badness of a place by less than this part is the last one.
@@ -62,21 +62,22 @@ public:
   {
   }
 
-  void run(std::vector<Index> bad)
+  /// Points round quads move, and again farther round those that are inverted then.
+  void run(std::vector<Index> quads)
   {
     for (const int rings : kRingsThatMove)
     {
-      if (bad.empty())
+      if (quads.empty())
       {
         break;
       }
       const bool isWider = rings > kRingsThatMove[0];
       countTry(Try::WiderUntangling, isWider ? 1 : 0);
-      const std::size_t before = bad.size();
-      const std::vector<Place> places = separate(pointsRound(bad, rings));
+      const std::size_t before = quads.size();
+      const std::vector<Place> places = separate(pointsRound(quads, rings));
       parallelForEach(places.size(), 1, options_.threads, [&](std::size_t i) { mend(places[i]); });
-      bad = badQuads(quads_.points, quads_.quads);
-      countTryLed(Try::WiderUntangling, isWider && bad.size() < before ? 1 : 0);
+      quads = invertedQuads(quads_.points, quads_.quads);
+      countTryLed(Try::WiderUntangling, isWider && quads.size() < before ? 1 : 0);
     }
   }
 
