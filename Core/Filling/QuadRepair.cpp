@@ -155,13 +155,9 @@ void repairQuads(const Mesh& mesh, QuadMesh& quads, const QuadRepairOptions& opt
   const auto worstFirst = [&quads]
   {
     std::vector<std::pair<double, Index>> found;
-    for (Index q = 0; q < quads.quads.size(); ++q)
+    for (const Index q : badQuads(quads.points, quads.quads))
     {
-      const double shape = scaledJacobian(cornersOf(quads.points, quads.quads[q]));
-      if (shape < kLeastShape)
-      {
-        found.emplace_back(shape, q);
-      }
+      found.emplace_back(scaledJacobian(cornersOf(quads.points, quads.quads[q])), q);
     }
     std::sort(found.begin(), found.end());
     std::vector<Index> bad;
