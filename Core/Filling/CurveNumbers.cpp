@@ -253,11 +253,15 @@ std::vector<Vector3> FaceCurves::cornersRound(Index face) const
   }
   for (const CurvePoint& point : given_)
   {
-    if (faceOf_[Mesh::face(point.h)] == face && point.t > 0)
+    if (faceOf_[Mesh::face(point.h)] != face)
+    {
+      continue;
+    }
+    if (point.t > 0)
     {
       onEdge[point.h].push_back(point.t);
     }
-    else if (faceOf_[Mesh::face(point.h)] == face)
+    else
     {
       atVertex.insert(mesh_.origin[point.h]);
     }

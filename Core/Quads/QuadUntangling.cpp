@@ -396,15 +396,15 @@ private:
 
 UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
 {
-  const auto inverted = [&quads] { return invertedQuads(quads.points, quads.quads).size(); };
   UntanglingResult result;
-  result.invertedBefore = inverted();
   std::vector<Index> bad = badQuads(quads.points, quads.quads);
-  if (!bad.empty())
+  if (bad.empty())
   {
-    Untangling(mesh, quads, options).run(std::move(bad));
+    return result; // inverted ones are bad
   }
-  result.invertedAfter = inverted();
+  result.invertedBefore = invertedQuads(quads.points, quads.quads).size();
+  Untangling(mesh, quads, options).run(std::move(bad));
+  result.invertedAfter = invertedQuads(quads.points, quads.quads).size();
   return result;
 }
 
