@@ -356,26 +356,30 @@ ExtractionResult extractQuads(
   result.mesh.onBoundary = std::move(topology.onBoundary);
   if (result.status.ok())
   {
-    SmoothingOptions smoothing;
-    smoothing.steps = options.smoothingSteps;
-    smoothing.threads = options.threads;
-    smoothing.fixedVertices = options.fixedVertices;
-    smoothing.progress = [&options](double fraction, const std::string& text)
-    { return !options.progress || options.progress(0.9 + 0.1 * fraction, text); };
-    smoothing.guides = options.guides;
-    smoothQuads(mesh, result.mesh, smoothing);
-    if (options.smoothingSteps > 0)
-    {
-      untangleQuads(mesh, result.mesh, { options.fixedVertices, options.threads });
-      if (options.replacesBad)
-      {
-        repairQuads(
-          mesh, result.mesh, { options.fixedVertices, options.keptChains, options.threads });
-      }
-    }
+    improveShape(mesh, options, result.mesh);
   }
   report(options.progress, 1, "extraction done");
   return result;
+}
+
+void improveShape(const Mesh& mesh, const ExtractionOptions& options, QuadMesh& quads)
+{
+  SmoothingOptions smoothing;
+  smoothing.steps = options.smoothingSteps;
+  smoothing.threads = options.threads;
+  smoothing.fixedVertices = options.fixedVertices;
+  smoothing.progress = [&options](double fraction, const std::string& text)
+  { return !options.progress || options.progress(0.9 + 0.1 * fraction, text); };
+  smoothing.guides = options.guides;
+  smoothQuads(mesh, quads, smoothing);
+  if (options.smoothingSteps > 0)
+  {
+    untangleQuads(mesh, quads, { options.fixedVertices, options.threads });
+    if (options.replacesBad)
+    {
+      repairQuads(mesh, quads, { options.fixedVertices, options.keptChains, options.threads });
+    }
+  }
 }
 
 } // namespace quadrille

@@ -107,4 +107,8 @@ struct ExtractionResult : ExtractionCounts
 ExtractionResult extractQuads(
   const Mesh& mesh, const std::vector<FixedVec2>& uv, const ExtractionOptions& options);
 
+/// What follows once the quads are there, of smoothingSteps, replacesBad, keptChains, fixedVertices and guides: also
+/// for quads of the mesh that were changed.
+void improveShape(const Mesh& mesh, const ExtractionOptions& options, QuadMesh& quads);
+
 } // namespace quadrille

@@ -90,7 +90,7 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, patchesYield,
     featuresYield, detectedFeatures, guideDirections, guideWeights, guideOrders, targetValences,
     sizing, sizingOrders, curvatures, drawn, curves, regularElsewhere, held, regularOnFeatures,
-    seams, straight, faceOrder, precision] = input;
+    withoutMap, seams, straight, faceOrder, precision] = input;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
@@ -104,6 +104,7 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
   static_cast<void>(regularElsewhere);
   static_cast<void>(held);
   static_cast<void>(regularOnFeatures);
+  static_cast<void>(withoutMap);
   static_cast<void>(seams);
   static_cast<void>(straight);
   static_cast<void>(faceOrder);

@@ -267,6 +267,7 @@ struct SurfaceRequests
   std::vector<SizeRequest> sizes;            ///< as they were given, in the frame
   std::vector<SectorRequest> sectorRequests; ///< ascending by vertex
   bool regularOnFeatures = false;            ///< as it was given
+  std::vector<Vector3> withoutMap;           ///< as they were given, in the frame
   std::vector<SeamRequest> seams;            ///< as they were given, in the frame
   std::vector<StraightRequest> straight;     ///< as they were given, in the frame
 };

@@ -62,6 +62,9 @@ struct SurfaceInput
   std::vector<HeldVertex> held;
   /// Curves that pass a vertex, features and boundaries, are to run straight there but for those that are held.
   bool regularOnFeatures = false;
+  /// Points inside of faces between features that are filled with quads without a map from the beginning, as those of
+  /// earlier quads were; see RunMap::withoutMap.
+  std::vector<Vector3> withoutMap;
   /// Parts of the boundary that get the same number of quads' edges, see SeamRequests.h.
   std::vector<SeamRequest> seams;
   /// Parts of the boundary that are straight in the map, see StraightRequests.h.

@@ -208,6 +208,10 @@ private:
     {
       partAt(straight.via).straight.push_back(straight);
     }
+    for (const Vector3& place : whole_.withoutMap)
+    {
+      partAt(place).withoutMap.push_back(place);
+    }
   }
 
   const PreparedSurface& whole_;

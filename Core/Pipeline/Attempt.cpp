@@ -130,8 +130,7 @@ FailedFaces onFinest(const FailedFaces& failed, const Level& coarse)
 }
 
 /// What is left of a map on the coarse level.
-void recordCoarse(
-  const PlannedSurface& surface, const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
+void recordCoarse(const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
 {
   const std::size_t coarse = levels.coarse.mesh.faceCount();
   made.stages.add("field", map.secondsField, coarse, coarse);
@@ -151,9 +150,7 @@ void recordCoarse(
       made.coarse.mesh, map.field.sectorTurns, made.coarseInteger, made.coarse.fineVertex);
   }
   made.coarseCertificate = map.certificate;
-  // Where features are held, more freedom is what helps, see Session.
-  const bool isHeld = surface->regularOnFeatures && !map.status.ok();
-  made.hopeless = isHeld || map.status.code == StatusCode::TooLarge ||
+  made.hopeless = map.status.code == StatusCode::TooLarge ||
     (map.status.code == StatusCode::Infeasible && map.failedAt.empty());
   if (!map.status.ok())
   {
@@ -376,7 +373,7 @@ std::shared_ptr<MapAttempt> makeCoarseMap(RunContext& run, const PlannedSurface&
     const WorkScope scope(allowance);
     GridMapResult map = computeMap(run, surface, levels, plan, *made);
     made->work = scope.done();
-    recordCoarse(surface, levels, map, *made);
+    recordCoarse(levels, map, *made);
   }
   catch (const WorkSpent& spent)
   {

@@ -147,6 +147,10 @@ void keepMap(const RunContext& run, const Mesh& surface, MapAttempt& map);
 std::shared_ptr<const QuadAttempt> makeQuads(
   RunContext& run, const PlannedSurface& surface, const Plan& plan, MapAttempt& map);
 
+/// What quads of a map keep of what was asked for. All of these stay for as long as the options do.
+ExtractionOptions extractionOptions(
+  const PreparedSurface& surface, const RunMap& map, const RemeshOptions& run);
+
 /// The same on the intermediate level, for a preview.
 std::shared_ptr<const QuadAttempt> makePreview(
   RunContext& run, const PlannedSurface& surface, const Plan& plan, const MapAttempt& map);

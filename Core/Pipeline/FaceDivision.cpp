@@ -12,6 +12,7 @@
 #include "Mesh/Sizing.h"
 #include "Mesh/SurfaceParts.h"
 #include "Mesh/Topology.h"
+#include "Pipeline/RequestsAtCut.h"
 #include "Pipeline/Strategies.h"
 #include "Quads/QuadMoves.h"
 #include "Quads/QuadTopology.h"
@@ -467,14 +468,12 @@ private:
 
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
 {
-  const bool isAsked = !surface.valenceRequests.empty() || !surface.sectorRequests.empty() ||
-    !surface.curves.empty() || !surface.seams.empty() || !surface.straight.empty() ||
-    surface.regularElsewhere || surface.regularOnFeatures;
+  const bool hasToFit = !surface.seams.empty() || !surface.straight.empty();
   // Features that a user marks may be far finer than quads, which only he can know to be meant.
   const bool isMarked = !surface.facets.isDesigned &&
     std::any_of(surface.mesh.flags.begin(), surface.mesh.flags.end(),
       [](std::uint8_t flags) { return (flags & kRequestedFeature) != 0 && !yields(flags); });
-  if (isAsked || isMarked || options.preview || options.method != MapMethod::ScaleAware)
+  if (hasToFit || isMarked || options.preview || options.method != MapMethod::ScaleAware)
   {
     return false;
   }
@@ -503,6 +502,22 @@ double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed)
     out += isFailed[labels[f]] != 0 ? area : 0;
   }
   return out / all;
+}
+
+FailedFaces facesWithoutMap(const PreparedSurface& surface)
+{
+  FailedFaces faces;
+  if (surface.withoutMap.empty())
+  {
+    return faces;
+  }
+  const NearestTriangle triangles(trianglesOf(surface.mesh));
+  for (const Vector3& place : surface.withoutMap)
+  {
+    faces.faces.push_back(triangles.at(place)->triangle);
+  }
+  sortUnique(faces.faces);
+  return faces;
 }
 
 bool addFacesAt(const std::vector<Vector3>& places, const SizedSurface& whole, FailedFaces& failed)
@@ -564,6 +579,16 @@ std::string filledText(const CutFaces& cut, std::size_t quads)
        << placeText(cut.faces.mesh.middleOfFace(0)) << (cut.count == 1 ? ", has" : ", have")
        << " no map with quads of this size; the edges are kept, and inside there are quads that "
           "follow no direction";
+  const PreparedSurface& faces = cut.faces;
+  const std::size_t unmet = faces.valenceRequests.size() + faces.curves.size();
+  if (unmet > 0)
+  {
+    text << "; " << unmet << (unmet == 1 ? " constraint" : " constraints") << " there, near "
+         << placeText(faces.valenceRequests.empty()
+                ? faces.curves.front().points.front()
+                : faces.mesh.position[faces.valenceRequests.front().vertex])
+         << ", cannot be met";
+  }
   return text.str();
 }
 
@@ -575,18 +600,30 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
   cut.count =
     static_cast<std::size_t>(std::count(isFailed.begin(), isFailed.end(), std::uint8_t{ 1 }));
   PreparedSurface opened = *whole.surface;
+  opened.withoutMap.clear();
   const Mesh& mesh = whole.surface->mesh;
-  const auto isOut = [&](Index h) { return isFailed[labels[Mesh::face(h)]] != 0; };
+  std::vector<std::uint8_t> isOutFace(mesh.faceCount(), 0);
+  const auto isOut = [&](Index h) { return isOutFace[Mesh::face(h)] != 0; };
   std::vector<std::uint8_t> isCut(mesh.halfEdgeCount(), 0);
   std::vector<Index> partOfFace(mesh.faceCount(), 0);
   double all = 0, out = 0;
+  std::map<Index, std::pair<double, Index>> largest; // by label
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
-    const bool isOne = isOut(3 * f);
-    partOfFace[f] = isOne ? 0 : 1;
+    isOutFace[f] = isFailed[labels[f]];
+    partOfFace[f] = isOutFace[f] != 0 ? 0 : 1;
     const double area = sizedArea(mesh, f);
     all += area;
-    out += isOne ? area : 0;
+    if (isOutFace[f] != 0)
+    {
+      out += area;
+      std::pair<double, Index>& known = largest[labels[f]];
+      known = known.first <= area ? std::make_pair(area, f) : known;
+    }
+  }
+  for (const auto& [label, triangle] : largest)
+  {
+    cut.inside.push_back(mesh.middleOfFace(triangle.second));
   }
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
@@ -596,10 +633,14 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
       opened.mesh.flags.edit()[h] = 0;
     }
   }
-  cutOpen(opened.mesh, isCut);
+  moveRequestsToSides(isOutFace, cutOpen(opened.mesh, isCut), opened);
   cut.share = out / all;
   const bool hasRest = cut.count < isFailed.size();
   std::vector<ComponentPart> parts = splitSurface(opened, partOfFace, hasRest ? 2 : 1, threads);
+  if (hasRest)
+  {
+    divideCurves(*whole.surface, isOutFace, kSameBoundary * whole.edgeLength, parts);
+  }
   cut.faces = std::move(parts[0].surface);
   cut.curves = std::move(parts[0].curves);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)

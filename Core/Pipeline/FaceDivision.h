@@ -23,15 +23,15 @@ struct CutFaces
   std::vector<std::uint8_t> isShared; ///< #H of its mesh: of its boundary, where the rest was
   std::vector<Vector3>
     beyond; ///< of these half-edges, ascending: the middle of the rest's face there
-  std::vector<Index> curves; ///< which of the whole's begin on them
-  double share = 0;          ///< of the area over the sizes
+  std::vector<Index> curves;   ///< which of the whole's pass through them
+  std::vector<Vector3> inside; ///< a point of each face
+  double share = 0;            ///< of the area over the sizes
   std::size_t count = 0;
   std::optional<SizedPart> rest; ///< none where these are all
 };
 
-/// Whether features cut a surface into several faces, and nothing is asked for that quads without a map may not have
-/// (guides and sizes are wishes, which filled faces need not follow), nor are features of a scan marked that never
-/// yield.
+/// Whether features cut a surface into several faces, and parts of its boundary have not to fit others, which quads
+/// without a map do not care for, nor are features of a scan marked that never yield.
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options);
 /// Whether attempts on such a surface have no quads yet, and it is designed, or has patches: no feature is given up for
 /// a map there. On others, whose features are those of a scan, features near a failure go first.
@@ -39,8 +39,12 @@ bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history);
 /// The area of the faces in which a map has failed over that of the surface.
 double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed);
+/// The faces that have no map from the beginning, see SurfaceRequests::withoutMap.
+FailedFaces facesWithoutMap(const PreparedSurface& surface);
 /// Adds those at places, as where quads do not fit; whether there are any that had not failed.
 bool addFacesAt(const std::vector<Vector3>& places, const SizedSurface& whole, FailedFaces& failed);
+/// What is asked for on the faces, their boundary included, is not asked of the rest, but for vertices on features that
+/// are held: these are in the rest what they were there.
 CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int threads);
 
 /// The faces with quads that meet those of the rest.

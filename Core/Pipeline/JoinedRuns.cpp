@@ -247,6 +247,7 @@ void JoinedRuns::add(const SizedPart& part, RemeshResult made)
   targetQuads_ -= static_cast<long long>(part.sized.targetQuads);
   joined_.mapKey = KeyMaker(joined_.mapKey).add(made.mapKey).key();
   append(joined_.givenUpFeatures, made.givenUpFeatures);
+  append(joined_.withoutMap, made.withoutMap);
   addSmallParts(made.smallParts, joined_.smallParts);
   addFailed(part, made.failed);
   for (std::size_t i = 0; i < part.curves.size(); ++i)
@@ -291,7 +292,8 @@ void JoinedRuns::addFilled(const CutFaces& cut, FilledPart filled)
   joined_.certificate.withoutMap += surface.mesh.faceCount();
   surface_.unusedValences += surface.valenceRequests.size();
   tellUnmet(surface.curves, cut.curves,
-    "it begins on a face between sharp edges that has no map; ask for more quads");
+    "it passes through a face between sharp edges that has no map; ask for more quads");
+  append(joined_.withoutMap, cut.inside);
   addQuadMesh(filled.quads, faces, all);
   // Points of the rest stand for those that lie on them.
   std::vector<Index> stands(all.points.size());

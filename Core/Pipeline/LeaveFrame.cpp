@@ -213,6 +213,10 @@ void leaveMeasures(RemeshResult& result, const Frame& frame)
     curve.end = frame.toUser(curve.end);
   }
   leaveFrame(result.onFeatures, frame);
+  for (Vector3& place : result.withoutMap)
+  {
+    place = frame.toUser(place);
+  }
 }
 
 } // namespace

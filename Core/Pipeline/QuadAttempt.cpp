@@ -197,7 +197,7 @@ std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<F
 }
 
 /// Irregular vertices that were asked for, and those that connections join.
-std::vector<Index> verticesThatStay(const PreparedSurface& surface, const MapAttempt& map)
+std::vector<Index> verticesThatStay(const PreparedSurface& surface, const RunMap& map)
 {
   std::vector<Index> vertices = heldIndexVertices(surface);
   for (const CurveOutcome& curve : map.curves)
@@ -245,6 +245,27 @@ std::vector<std::vector<Index>> chainsOfCurves(const PreparedSurface& surface,
   return chains;
 }
 
+} // namespace
+
+ExtractionOptions extractionOptions(
+  const PreparedSurface& surface, const RunMap& map, const RemeshOptions& run)
+{
+  ExtractionOptions options;
+  options.smoothingSteps = run.smoothingSteps;
+  options.maximumNumberOfQuads = run.maximumNumberOfQuads;
+  options.threads = run.threads;
+  options.fixedVertices = verticesThatStay(surface, map);
+  if (!map.curves.empty())
+  {
+    options.keptChains = [&surface, &map, &run](const QuadMesh& quads)
+    { return chainsOfCurves(surface, map.curves, quads, run.threads); };
+  }
+  return options;
+}
+
+namespace
+{
+
 void extractOnSurface(
   const RunContext& run, const PlannedSurface& surface, const MapAttempt& map, QuadAttempt& made)
 {
@@ -259,17 +280,10 @@ void extractOnSurface(
   const std::shared_ptr<const SurfaceShape> shape = findOrMake<SurfaceShape>(
     run.store, surface.keyWithoutSizes, [&] { return shapeOf(mesh, run.options.threads); },
     [](const SurfaceShape&) { return sizeof(SurfaceShape); });
-  ExtractionOptions options;
-  options.smoothingSteps = run.options.smoothingSteps;
-  options.fixedVertices = verticesThatStay(*surface, map);
+  ExtractionOptions options = extractionOptions(*surface, map, run.options);
   options.guides = map.guides;
   // Of the coarsest ones each is a patch of a layout, whatever its shape.
   options.replacesBad = !run.options.coarsestIntegers && !run.hasBeside;
-  if (!map.curves.empty())
-  {
-    options.keptChains = [&](const QuadMesh& quads)
-    { return chainsOfCurves(*surface, map.curves, quads, run.options.threads); };
-  }
   options.mapIsCertified = map.certificate.valid();
   options.shape = shape.get();
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");

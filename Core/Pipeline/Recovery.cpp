@@ -25,8 +25,11 @@ constexpr std::array<Strategy, 3> kForMaps{ {
   { Try::RoomForCurves, 1, roomForCurves },
   { Try::KeptDefects, 2, keptDefects },
 } };
-constexpr std::array<Strategy, 2> kForRounds{ {
+constexpr std::array<Strategy, 1> kWithAllFeatures{ {
   { Try::Counterparts, 1, withCounterparts },
+} };
+constexpr std::array<Strategy, 2> kForRounds{ {
+  kWithAllFeatures[0],
   { Try::FewerFeatures, kMostFeatureDrops, fewerFeatures },
 } };
 
@@ -76,6 +79,24 @@ std::optional<Plan> firstOffer(const Strategies& strategies, AttemptFailure& fai
   return std::nullopt;
 }
 
+/// None where no other round would be better.
+std::optional<AttemptFailure> failureOfRound(RunContext& run, const History& history)
+{
+  const Attempt& attempt = history.last();
+  const bool mapped = attempt.map->status.ok();
+  const bool hasQuads = attempt.quads && attempt.quads->status.ok();
+  if ((!hasQuads && run.hasCrowd) || (mapped && isRounded(run.options.method)) ||
+    (hasQuads && !attempt.quads->invertedAtFolds))
+  {
+    return std::nullopt;
+  }
+  return AttemptFailure{ run, history, attempt,
+    withPlan(run.surface, attempt.plan, run.options.threads),
+    mapped ? positionsOf(run.surface->mesh, attempt.map->transfer.defectVertices)
+           : attempt.map->failedPlaces,
+    !hasQuads, 0 };
+}
+
 } // namespace
 
 void setStep(Plan& plan, Try which)
@@ -98,24 +119,24 @@ std::optional<Plan> nextMapPlan(RunContext& run, const History& history)
 
 std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLast)
 {
-  const Attempt& attempt = history.last();
-  const bool mapped = attempt.map->status.ok();
-  const bool hasQuads = attempt.quads && attempt.quads->status.ok();
-  if ((!hasQuads && run.hasCrowd) || (mapped && isRounded(run.options.method)) ||
-    (hasQuads && !attempt.quads->invertedAtFolds))
+  std::optional<AttemptFailure> failed = failureOfRound(run, history);
+  if (!failed)
   {
     return std::nullopt;
   }
-  AttemptFailure failure{ run, history, attempt,
-    withPlan(run.surface, attempt.plan, run.options.threads), {}, !hasQuads, 0 };
-  failure.places = mapped ? positionsOf(run.surface->mesh, attempt.map->transfer.defectVertices)
-                          : attempt.map->failedPlaces;
+  AttemptFailure& failure = *failed;
   std::optional<Plan> plan;
   if (!history.isSpent())
   {
     plan = firstOffer(kForRounds, failure);
   }
   return plan || !isLast || history.hasResult() ? plan : firstOffer(kLastResort, failure);
+}
+
+std::optional<Plan> planBeforeCut(RunContext& run, const History& history)
+{
+  std::optional<AttemptFailure> failure = failureOfRound(run, history);
+  return failure && !history.isSpent() ? firstOffer(kWithAllFeatures, *failure) : std::nullopt;
 }
 
 bool isLastResort(const Plan& plan)

@@ -34,6 +34,7 @@ void addShared(const Requests& requests, KeyMaker& key)
   {
     key.add(part.from, part.via, part.to, part.outward);
   }
+  key.add(requests.withoutMap);
 }
 
 } // namespace

@@ -6,7 +6,6 @@
 
 #include "Base/Lists.h"
 #include "Base/Progress.h"
-#include "Filling/QuadRepair.h"
 #include "Pipeline/Attempt.h"
 #include "Pipeline/Division.h"
 #include "Pipeline/EnterFrame.h"
@@ -18,8 +17,6 @@
 #include "Pipeline/Restarts.h"
 #include "Pipeline/RunResult.h"
 #include "Pipeline/Strategies.h"
-#include "Quads/QuadSmoothing.h"
-#include "Quads/QuadUntangling.h"
 
 #include <algorithm>
 #include <optional>
@@ -92,8 +89,8 @@ bool isLeftToParts(const SizedSurface& sized, const RemeshOptions& options, cons
 }
 
 /// Rounds of attempts until one is good or nothing is left to try: maps until one is good or no other would be better,
-/// then the quads of the best one. isLast: where no attempt has quads, nothing follows. Where the surface is left to
-/// its parts after a failure, the first one is the end.
+/// then the quads of the best one. isLast: where no attempt has quads, nothing follows. Where the surface is divided
+/// after a failure, the first one is the end.
 /// After a stop result.stopped tells what was tried, and the quads so far are the result, or those of a map that is
 /// there already; throws Cancelled without any.
 void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> plan, bool isLast,
@@ -104,8 +101,9 @@ void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> 
   {
     const auto next = [&]
     {
-      return isLeftToParts(sized, run.options, history)
-        ? std::nullopt
+      return isDivided(sized, history) ? std::nullopt
+        : isCutAtFaces(*sized.surface, run.options, history)
+        ? planBeforeCut(run, history)
         : nextPlan(run, history,
             isLast && !history.hasResult() && !mayCutFaces(*sized.surface, run.options));
     };
@@ -312,8 +310,12 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
   }
   FilledPart filled = fillCutFaces(cut, cut.rest ? &cut.rest->sized.surface->mesh : nullptr,
     cut.rest ? &made.quads : nullptr, sized.edgeLength);
-  const Attempt& last = history.last();
-  failure = { last.quads ? last.quads->status : last.map->status, filled.failedAt };
+  failure.places = filled.failedAt;
+  if (history.attempts() > 0)
+  {
+    const Attempt& last = history.last();
+    failure.status = last.quads ? last.quads->status : last.map->status;
+  }
   if (!filled.failedAt.empty())
   {
     return false;
@@ -333,16 +335,29 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
   sized.surface = std::make_shared<const PreparedSurface>(joined.take(result, options.threads));
   if (!sized.hasBeside)
   {
-    SmoothingOptions smoothing;
-    smoothing.steps = options.smoothingSteps;
-    smoothing.threads = options.threads;
-    smoothQuads(sized.surface->mesh, result.quads, smoothing);
-    untangleQuads(sized.surface->mesh, result.quads, { {}, options.threads });
-    repairQuads(sized.surface->mesh, result.quads, { {}, nullptr, options.threads });
+    improveShape(
+      sized.surface->mesh, extractionOptions(*sized.surface, result, options), result.quads);
   }
   result.notices.push_back(filledText(cut, sized.targetQuads));
   failure = {};
   return true;
+}
+
+/// Where it is known which faces have no map: the rest, and these filled beside it.
+bool remeshBesideKnown(
+  Settled& settled, SizedSurface& sized, const Asked& asked, RemeshResult& result)
+{
+  const FailedFaces known = facesWithoutMap(*sized.surface);
+  if (known.empty() || !mayCutFaces(*sized.surface, asked.options))
+  {
+    return false;
+  }
+  countTry(Try::FilledFaces);
+  Failure failure;
+  const bool isFilled = remeshCut(
+    cutFaces(sized, known, asked.options.threads), {}, settled, sized, asked, result, failure);
+  countTryLed(Try::FilledFaces, isFilled ? 1 : 0);
+  return isFilled;
 }
 
 /// The faces in which the last attempt has failed are filled beside the quads of the rest; where these do not fit, with
@@ -383,6 +398,10 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
     const bool hasQuads = options.leavesOutFailed && sized.surface->components > 1 &&
       remeshDivided({}, settled, sized, asked, joined, result, failure);
     result.status = hasQuads ? result.status : settled.status;
+    return;
+  }
+  if (remeshBesideKnown(settled, sized, asked, result))
+  {
     return;
   }
   History history = makeAttempts(settled, sized, options, asked.store, result);

@@ -32,6 +32,9 @@ struct RunMap
   std::vector<int> turns;    ///< #V of the surface
   Certificate certificate;
   TransferResult transfer; ///< but for uv
+
+  /// A point inside of each face between features that was filled with quads without a map.
+  std::vector<Vector3> withoutMap;
 };
 
 struct RunQuads

@@ -172,6 +172,10 @@ void requestsToFrame(FramedInput& framed)
     }
     part.outward = frame.mirrored(part.outward);
   }
+  for (Vector3& place : framed.input.withoutMap)
+  {
+    place = frame.fromUser(place);
+  }
 }
 
 /// Runs the first polygon, begun at its lowest point, against ascending ids?

@@ -182,6 +182,7 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int th
   surface.sizes = input.drawn.sizes;
   surface.localSizes = !input.drawn.sizes.empty() || !input.sizingOrders.empty();
   surface.regularOnFeatures = input.regularOnFeatures;
+  surface.withoutMap = input.withoutMap;
   surface.seams = input.seams;
   surface.straight = input.straight;
   if (input.targetValences.empty())

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/HeldVertices.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Mesh/Surface.h"
 
@@ -193,12 +194,25 @@ std::vector<SectorRequest> placeHeldVertices(
     taken[request.vertex] = 1;
   }
   std::vector<std::uint8_t> placed(input.held.size(), 0);
+  std::size_t lastPlaced = 0;
+  const auto hasFanOf = [&](const HeldVertex& held, Index v)
+  {
+    return !surface.withoutMap.empty() && !sectors.empty() && sectors.back().vertex == v &&
+      input.held[lastPlaced].place == held.place;
+  };
   for (const HeldCandidate& candidate : candidatesOf(input, surface))
   {
+    const HeldVertex& held = input.held[candidate.held];
     if (placed[candidate.held] == 0 && taken[candidate.vertex] == 0)
     {
       placed[candidate.held] = taken[candidate.vertex] = 1;
-      sectors.push_back({ candidate.vertex, input.held[candidate.held].sectors });
+      sectors.push_back({ candidate.vertex, held.sectors });
+      lastPlaced = candidate.held;
+    }
+    else if (placed[candidate.held] == 0 && hasFanOf(held, candidate.vertex))
+    {
+      placed[candidate.held] = 1;
+      append(sectors.back().sectors, held.sectors);
     }
   }
   std::sort(sectors.begin(), sectors.end(),
@@ -263,6 +277,24 @@ std::vector<int> levelSectors(
     }
   }
   return turns;
+}
+
+std::vector<HeldSector> sectorsLike(const std::vector<HeldSector>& held, const Mesh& mesh, Index h)
+{
+  Index first = kInvalidIndex;
+  forEachInFan(mesh, h,
+    [&](Index g) {
+      first = mesh.isConstrained(g) && (first == kInvalidIndex || mesh.isBoundary(g)) ? g : first;
+    });
+  std::vector<HeldSector> sectors;
+  for (const MeshSector& sector : sectorsFrom(mesh, first))
+  {
+    const auto like = std::max_element(held.begin(), held.end(),
+      [&](const HeldSector& a, const HeldSector& b)
+      { return a.middle.dot(sector.middle) < b.middle.dot(sector.middle); });
+    sectors.push_back({ sector.middle, like->turns });
+  }
+  return sectors;
 }
 
 } // namespace quadrille

@@ -18,7 +18,9 @@ struct SurfaceInput;
 
 /// Of the vertices that are meant: of those on features and boundaries that are corners of triangles at the point, the
 /// nearest one to the place that is not taken yet, by a valence that is asked for or another one; in the order of
-/// `held`. Those without such a vertex are left out. Ascending by vertex.
+/// `held`. Those without such a vertex are left out, but for what the rest had there where faces without a map were cut
+/// out of the surface: a vertex may have had several fans then, whose sectors are those of the vertex together.
+/// Ascending by vertex.
 std::vector<SectorRequest> placeHeldVertices(
   const SurfaceInput& input, const PreparedSurface& surface);
 
@@ -32,5 +34,9 @@ std::vector<SectorRequest> sectorsOf(const Mesh& level, const std::vector<std::i
 /// Sectors of a single triangle, which nothing can change, are left as they are. Empty where the surface does not ask.
 std::vector<int> levelSectors(
   const PreparedSurface& surface, const Mesh& level, const std::vector<Index>& fineVertex);
+
+/// Of a vertex of a mesh, from which half-edge h leaves, the sectors like those that are held: each has the quarter
+/// turns of that whose middle is nearest to its own.
+std::vector<HeldSector> sectorsLike(const std::vector<HeldSector>& held, const Mesh& mesh, Index h);
 
 } // namespace quadrille

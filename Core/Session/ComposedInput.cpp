@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/ComposedInput.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "Session/IrregularEdits.h"
@@ -315,6 +316,10 @@ private:
     }
     setIrregular();
     composed_.lastOperation = list_.links().back().id;
+    if (!composed_.symmetry)
+    {
+      append(input.withoutMap, list_.withoutMap());
+    }
     hold(others == 0 && off == 0);
   }
 

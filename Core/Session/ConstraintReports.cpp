@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Evaluation/ConstraintMeasures.h"
+#include "Mesh/NearestTriangle.h"
 #include "Session/IrregularMatch.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <optional>
 
 namespace quadrille
 {
@@ -29,6 +31,18 @@ bool asksForSize(const ConstraintContent& content)
   return std::holds_alternative<SizeAt>(content) || std::holds_alternative<SizeRegion>(content);
 }
 
+TriangleList trianglesOf(const FixedPlaces& fixed)
+{
+  TriangleList list;
+  for (const std::array<Vector3, 3>& triangle : fixed.withoutMap)
+  {
+    const auto first = static_cast<Index>(list.points.size());
+    list.points.insert(list.points.end(), triangle.begin(), triangle.end());
+    list.corners.push_back({ first, first + 1, first + 2 });
+  }
+  return list;
+}
+
 class SessionJudge
 {
 public:
@@ -42,6 +56,11 @@ public:
         made.quads.quads.size())),
       symmetric_(symmetric), measures_(made.quads)
   {
+    if (!result.fixed.withoutMap.empty())
+    {
+      withoutMap_.emplace(trianglesOf(result.fixed));
+      onWithoutMap_ = kOnePlace * result.targetEdgeLength;
+    }
     std::size_t guides = 0;
     for (const PlacedPart& part : composed.parts)
     {
@@ -98,6 +117,11 @@ private:
   std::string whoCounts(const std::vector<WeightedPlace>& places, bool isSize);
   using Cover = std::function<bool(const Vector3&)>;
   Cover coverOf(std::size_t i);
+  /// Whether the quads there fill a face without a map: no operation says what they are, and its boundary is shared.
+  bool isWithoutMap(const Vector3& place) const
+  {
+    return withoutMap_ && withoutMap_->at(place, Vector3::Zero(), onWithoutMap_);
+  }
   /// Within which an irregular point is where it was.
   double reachAt(const Vector3& place) { return kReachOfOperation * measures_.edgeLengthAt(place); }
 
@@ -156,6 +180,8 @@ private:
   double madeEdgeLength_;            ///< of quads of size 1, by how many there are
   const SymmetricResult* symmetric_; ///< null: the quads were not made so
   ConstraintMeasures measures_;
+  std::optional<NearestTriangle> withoutMap_; ///< faces that have none
+  double onWithoutMap_ = 0;                   ///< so near places lie on these
   std::size_t mostPlaces_ = 0;
   const PlacedPart* part_ = nullptr;
   std::size_t at_ = 0; ///< of the constraint
@@ -265,7 +291,8 @@ std::vector<Vector3> SessionJudge::otherChanges()
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
     const Vector3& place = expected[i].place;
-    if (!match.actual[i] && !isNear(told, place, 0) && !isNear(drawn, place, reach[i]))
+    if (!match.actual[i] && !isNear(told, place, 0) && !isNear(drawn, place, reach[i]) &&
+      !isWithoutMap(place))
     {
       places.push_back(place);
     }
@@ -273,7 +300,8 @@ std::vector<Vector3> SessionJudge::otherChanges()
   for (const std::size_t k : match.unexpected)
   {
     const Vector3& place = actual[k].place;
-    if (!isNear(failed, place, reachAt(place)) && !isNear(drawn, place, reachAt(place)))
+    if (!isNear(failed, place, reachAt(place)) && !isNear(drawn, place, reachAt(place)) &&
+      !isWithoutMap(place))
     {
       places.push_back(place);
     }

@@ -94,6 +94,7 @@ struct FixedPlaces
 {
   std::vector<std::array<Vector3, 2>> edges;      ///< of features and boundaries, each once
   std::vector<std::array<Vector3, 3>> withoutMap; ///< triangles of faces that have no map
+  std::vector<Vector3> insideOfFaces;             ///< a point of each of these faces
 };
 
 enum class IrregularOperation
@@ -139,6 +140,7 @@ struct IrregularEdit
   std::vector<HeldVertex> onFeatures = {};
   /// All irregular points that the quads had then, see irregularPoints: what a user saw. Files of version 1 have none.
   std::vector<IrregularVertex> shown = {};
+  std::vector<Vector3> withoutMap = {}; ///< FixedPlaces::insideOfFaces then
 };
 
 /// A chain of edges of quads, straight in the map, that joins two irregular vertices, features or boundaries.

@@ -7,6 +7,7 @@
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 #include "Mesh/Distance.h"
+#include "Mesh/NearestTriangle.h"
 #include "Session/IrregularMatch.h"
 
 #include <algorithm>
@@ -320,25 +321,51 @@ std::vector<IrregularVertex> irregularVertices(const MadeSurface& made,
   return irregular;
 }
 
-std::vector<std::array<Vector3, 3>> trianglesWithoutMap(
-  const MadeSurface& made, const std::vector<int>& turns, const OnCurves& onCurves)
+FixedPlaces fixedPlaces(
+  const MadeSurface& made, const OnCurves& onCurves, const std::vector<Vector3>& insideOfFaces)
 {
-  const Mesh& mesh = made.surface.mesh;
-  std::vector<std::array<Vector3, 3>> triangles;
-  for (Index h = 0; !turns.empty() && h < mesh.halfEdgeCount(); h += 3)
+  FixedPlaces fixed{ onCurves.edges, {}, insideOfFaces };
+  if (insideOfFaces.empty())
   {
-    pollNowAndThen(h);
-    const auto isWithout = [&](Index corner)
+    return fixed;
+  }
+  const Mesh& mesh = made.surface.mesh;
+  const NearestTriangle triangles(trianglesOf(mesh));
+  std::vector<std::uint8_t> isWithout(mesh.faceCount(), 0);
+  std::vector<Index> next;
+  const auto add = [&](Index f)
+  {
+    if (isWithout[f] == 0)
     {
-      const Index v = mesh.origin[corner];
-      return isInside(onCurves, v) && !hasMap(turns, v);
-    };
-    if (isWithout(h) || isWithout(h + 1) || isWithout(h + 2))
+      isWithout[f] = 1;
+      next.push_back(f);
+    }
+  };
+  for (const Vector3& place : insideOfFaces)
+  {
+    add(triangles.at(made.frame == nullptr ? place : made.frame->fromUser(place))->triangle);
+    while (!next.empty())
     {
-      triangles.push_back({ made.placeAt(h), made.placeAt(h + 1), made.placeAt(h + 2) });
+      const Index f = next.back();
+      next.pop_back();
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        if (!mesh.isConstrained(h))
+        {
+          add(Mesh::face(mesh.twin[h]));
+        }
+      }
     }
   }
-  return triangles;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    if (isWithout[f] != 0)
+    {
+      fixed.withoutMap.push_back(
+        { made.placeAt(3 * f), made.placeAt(3 * f + 1), made.placeAt(3 * f + 2) });
+    }
+  }
+  return fixed;
 }
 
 std::vector<HeldVertex> featureVertices(
@@ -423,6 +450,7 @@ std::string IrregularList::apply(int id, int revision, const IrregularEdit& edit
   if (takesOwn)
   {
     onFeatures_ = edit.onFeatures;
+    withoutMap_ = edit.withoutMap;
   }
   links_.push_back({ id, revision, edit.changes });
   isInForce_ = true;

@@ -45,9 +45,9 @@ OnCurves findOnCurves(const MadeSurface& made, int threads);
 std::vector<IrregularVertex> irregularVertices(const MadeSurface& made,
   const std::vector<int>& turns, const OnCurves& onCurves, const std::vector<ValencePlace>& asked,
   double takenWithin);
-/// The triangles with a vertex off curves that has no turns: inside of faces without a map.
-std::vector<std::array<Vector3, 3>> trianglesWithoutMap(
-  const MadeSurface& made, const std::vector<int>& turns, const OnCurves& onCurves);
+/// What operations cannot change. insideOfFaces: RunMap::withoutMap.
+FixedPlaces fixedPlaces(
+  const MadeSurface& made, const OnCurves& onCurves, const std::vector<Vector3>& insideOfFaces);
 /// Ends, corners and bends of features and boundaries, ascending by point of the input. onFeatures: of the
 /// RemeshResult.
 std::vector<HeldVertex> featureVertices(
@@ -84,6 +84,8 @@ public:
   std::vector<IrregularVertex> irregular() const;
   /// Those on features and boundaries, of the last operation that brought its own list.
   const std::vector<HeldVertex>& onFeatures() const { return onFeatures_; }
+  /// A point of each face that has no map, of the same.
+  const std::vector<Vector3>& withoutMap() const { return withoutMap_; }
   /// The points of the quads that are irregular then, see IrregularEdit::shown; none: not known.
   const std::optional<std::vector<IrregularVertex>>& shown() const { return shown_; }
   /// The operation in force that changed the place last; 0: none.
@@ -96,6 +98,7 @@ private:
   std::map<Vector3, int, PlaceOrder> valences_;
   std::map<Vector3, int, PlaceOrder> changedBy_;
   std::vector<HeldVertex> onFeatures_;
+  std::vector<Vector3> withoutMap_;
   std::optional<std::vector<IrregularVertex>> shown_;
   std::vector<IrregularEdit::Link> links_;
 };

@@ -63,7 +63,7 @@ public:
     const OnCurves onCurves = findOnCurves(made, threads);
     irregular_ = irregularVertices(made, without.turns, onCurves, surface.drawn.valences,
       kTakenVertex * without.targetEdgeLength);
-    fixed_ = { onCurves.edges, trianglesWithoutMap(made, without.turns, onCurves) };
+    fixed_ = fixedPlaces(made, onCurves, without.withoutMap);
     onFeatures_ = featureVertices(made, without.onFeatures);
   }
 
@@ -90,6 +90,7 @@ public:
     move.distance = (move.path[1] - to).norm();
     edit.upon = list_.links();
     edit.onFeatures = onFeatures_;
+    edit.withoutMap = fixed_.insideOfFaces;
     list_.apply(id, 0, edit);
     change(irregular_, edit.changes);
     to = list_.sameAs(to, where_.sameWithin);

@@ -139,7 +139,8 @@ std::size_t SessionResult::bytes() const
     bytesOf(quads.sourceWeights) + bytesOf(quads.quadSourceFace) +
     bytesOf(quads.quadSourceWeights) + bytesOf(quads.valence) + bytesOf(quads.onBoundary) +
     bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixed.edges) + bytesOf(fixed.withoutMap) +
-    bytesOf(onFeatures) + bytesOf(mirrorPoint) + bytesOf(rotatedPoint) + sizeof(*this);
+    bytesOf(fixed.insideOfFaces) + bytesOf(onFeatures) + bytesOf(mirrorPoint) +
+    bytesOf(rotatedPoint) + sizeof(*this);
 }
 
 std::uint64_t surfaceHash(const SurfaceInput& surface, int threads)
@@ -370,6 +371,7 @@ int Session::add(ConstraintContent content)
     resolveEdit(*edit, name, { where.places, now->fixed, where.sameWithin }, now->irregular);
     edit->upon = data_->linksInForce();
     edit->onFeatures = now->onFeatures;
+    edit->withoutMap = now->fixed.insideOfFaces;
     edit->shown = irregularPoints(now->quads);
   }
   auto next = std::make_shared<SessionState>(data_->next());
@@ -400,6 +402,7 @@ void Session::edit(int id, ConstraintContent content)
       made.before);
     edit->upon = made.upon;
     edit->onFeatures = made.onFeatures;
+    edit->withoutMap = made.withoutMap;
     edit->shown = made.shown;
   }
   *found = std::make_shared<const SessionConstraint>(std::move(constraint));

@@ -104,6 +104,10 @@ void checkResolved(const IrregularEdit& edit, const std::string& name, std::size
       require(vertex.place, std::clamp(vertex.valence, kLeastValence, kMostValence));
     }
   }
+  for (const Vector3& place : edit.withoutMap)
+  {
+    require(place, kRegularValence);
+  }
   for (const HeldVertex& vertex : edit.onFeatures)
   {
     if (vertex.point >= pointCount)

@@ -149,6 +149,7 @@ constexpr auto kResolvedFields = [](auto& fields, auto& edit)
   fields.needEach("upon", edit.upon, kLinkFields);
   fields.mayEach("on_features", edit.onFeatures, kHeldFields); // files of before have none
   fields.mayEach("shown", edit.shown, kVertexFields);
+  fields.may("without_map", edit.withoutMap);
 };
 
 } // namespace

@@ -36,6 +36,14 @@ bool hasFewerDetails(const RemeshResult& made)
   return made.status.ok() && made.tries.led[static_cast<std::size_t>(Try::FewerDetails)] > 0;
 }
 
+/// Whether quads that fill a face without a map cannot have it.
+bool asksOfMap(const ConstraintContent& content)
+{
+  return std::holds_alternative<ValenceAt>(content) ||
+    std::holds_alternative<IrregularEdit>(content) || std::holds_alternative<Connection>(content) ||
+    std::holds_alternative<Cycle>(content);
+}
+
 /// All runs that a state needs.
 class StateRun
 {
@@ -116,29 +124,69 @@ private:
     {
       return true;
     }
-    if (!hasFewerDetails(made) || leftOut.size() >= state_.constraints.size())
+    const auto isAny = [](const ConstraintContent&) { return true; };
+    if (hasFewerDetails(made) && isLeft(isAny, leftOut) &&
+      !hasFewerDetails(without(isAny, withoutAny_, leftOut)))
     {
-      return false;
+      return true;
     }
-    if (!hasFewerAnyway_)
-    {
-      std::map<int, std::string> all;
-      for (const auto& constraint : state_.constraints)
-      {
-        all[constraint->id] = "not tried";
-      }
-      hasFewerAnyway_ = hasFewerDetails(runWith(all));
-      compose(leftOut);
-    }
-    return !*hasFewerAnyway_;
+    return !made.withoutMap.empty() && isLeft(asksOfMap, leftOut) &&
+      made.withoutMap.size() >
+      without(asksOfMap, withoutMapConstraints_, leftOut).withoutMap.size();
   }
 
-  static std::string reasonOf(const RemeshResult& made)
+  /// Whether some constraint of these kinds is in force.
+  bool isLeft(
+    bool (*isOne)(const ConstraintContent&), const std::map<int, std::string>& leftOut) const
   {
-    return made.status.ok() ? "no attempt has led to quads that keep all handles and boundary "
-                              "loops of the surface: ask for "
-                              "smaller quads, or have these simplified (Small Details)"
-                            : made.status.message;
+    return std::any_of(state_.constraints.begin(), state_.constraints.end(),
+      [&](const auto& constraint)
+      { return isOne(constraint->content) && leftOut.count(constraint->id) == 0; });
+  }
+
+  /// What is made without those, but for the quads.
+  const RemeshResult& without(bool (*isOne)(const ConstraintContent&),
+    std::optional<RemeshResult>& known, const std::map<int, std::string>& leftOut)
+  {
+    if (!known)
+    {
+      std::map<int, std::string> others;
+      for (const auto& constraint : state_.constraints)
+      {
+        if (isOne(constraint->content))
+        {
+          others[constraint->id] = "not tried";
+        }
+      }
+      SymmetricResult mirrored = std::move(mirrored_);
+      known = runOnce(others);
+      mirrored_ = std::move(mirrored);
+      known->quads = {};
+      known->framed.reset();
+      compose(leftOut);
+    }
+    return *known;
+  }
+
+  std::string reasonOf(const RemeshResult& made) const
+  {
+    if (!made.status.ok())
+    {
+      return made.status.message;
+    }
+    if (hasFewerDetails(made))
+    {
+      return "no attempt has led to quads that keep all handles and boundary loops of the surface: "
+             "ask for smaller quads, or have these simplified (Small Details)";
+    }
+    const auto isNew = [&](const Vector3& place)
+    {
+      const std::vector<Vector3>& before = withoutMapConstraints_->withoutMap;
+      return std::find(before.begin(), before.end(), place) == before.end();
+    };
+    const Vector3& place = *std::find_if(made.withoutMap.begin(), made.withoutMap.end(), isNew);
+    return "with it a face between sharp edges has no map with quads of this size, near " +
+      placeText(place) + ": ask for more quads, or choose another place";
   }
 
   void takeIrregular(const RemeshResult& made, SessionResult& result)
@@ -151,7 +199,7 @@ private:
       const auto onCurves = data_.onCurvesOf(surface);
       result.irregular = irregularVertices(surface, made.turns, *onCurves,
         composed_.input.drawn.valences, kTakenVertex * made.targetEdgeLength);
-      result.fixed = { onCurves->edges, trianglesWithoutMap(surface, made.turns, *onCurves) };
+      result.fixed = fixedPlaces(surface, *onCurves, made.withoutMap);
       result.onFeatures = featureVertices(surface, made.onFeatures);
     }
   }
@@ -190,7 +238,27 @@ private:
     }
   }
 
+  /// Where that fails, or more faces have no map than without what only a map can have: once more with the faces that
+  /// have none without it cut out from the beginning, so that no attempt fails for their sake.
   RemeshResult runWith(const std::map<int, std::string>& leftOut)
+  {
+    RemeshResult made = runOnce(leftOut);
+    if (!isLeft(asksOfMap, leftOut) || composed_.symmetry || !composed_.input.withoutMap.empty() ||
+      !(mayBeForConstraints(made) || !made.withoutMap.empty()))
+    {
+      return made;
+    }
+    const std::vector<Vector3>& before =
+      without(asksOfMap, withoutMapConstraints_, leftOut).withoutMap;
+    if (!before.empty() && (mayBeForConstraints(made) || made.withoutMap.size() > before.size()))
+    {
+      isCutBefore_ = true;
+      made = runOnce(leftOut);
+    }
+    return made;
+  }
+
+  RemeshResult runOnce(const std::map<int, std::string>& leftOut)
   {
     if (wasStopped_)
     {
@@ -244,6 +312,10 @@ private:
     composed_ = composeInput(data_.surface, data_.places(state_.settings), data_.lines,
       state_.constraints, leftOut, whyNotHeld_.empty());
     composed_.whyNotHeld = whyNotHeld_;
+    if (isCutBefore_ && isLeft(asksOfMap, leftOut) && composed_.input.withoutMap.empty())
+    {
+      composed_.input.withoutMap = withoutMapConstraints_->withoutMap;
+    }
   }
 
   /// None where the surface has no such symmetry, whatever else is asked of it: then it is left out of all runs. Were
@@ -331,8 +403,10 @@ private:
   ComposedInput composed_;
   SymmetricResult mirrored_; ///< of the last run, without `remeshed`
   std::string whyNotHeld_;   ///< vertices on features and boundaries; empty while they are
-  /// Whether the surface loses details without constraints, too; none: not known.
-  std::optional<bool> hasFewerAnyway_;
+  /// What is made without any constraints, and without those that only a map can have; none: not known.
+  std::optional<RemeshResult> withoutAny_, withoutMapConstraints_;
+  bool isCutBefore_ =
+    false; ///< faces that have no map in the latter are cut out from the beginning
   std::map<int, std::string> refused_; ///< symmetries that the surface has not, and why
   StageRecords stages_;
   bool wasStopped_ = false; ///< no run may follow

@@ -449,6 +449,29 @@ TEST(Recovery, AnotherRoundBeginsWithTheLevelsOfTheFirst)
   EXPECT_EQ(next->levels.edgeLength, 1);
 }
 
+TEST(Recovery, BeforeFacesAreCutOutFeaturesStay)
+{
+  SurfaceInput input = test::toInput(test::unitCube(20));
+  const auto stepAfterFailure = [&]
+  {
+    TestRun run(input, 0.05, 0.7);
+    History history;
+    history.addMap(run.first(), failedAtEdge());
+    history.addQuads(nullptr);
+    EXPECT_TRUE(nextPlan(run.context, history, false));
+    const std::optional<Plan> plan = planBeforeCut(run.context, history);
+    return plan ? plan->step : "none";
+  };
+  EXPECT_STREQ(stepAfterFailure(), "none");
+  input.targetValences.assign(input.points.size(), 0);
+  for (std::size_t p = 0; p < input.points.size(); ++p)
+  {
+    const bool isAsked = (input.points[p] - Vector3(0.5, 0.2, 0)).norm() < 1e-6;
+    input.targetValences[p] = isAsked ? 3 : 0;
+  }
+  EXPECT_STREQ(stepAfterFailure(), "counterparts");
+}
+
 TEST(Recovery, AnotherRoundKeepsWhatTheCoarseMapNeeded)
 {
   CubeRun run;

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Constraints on a surface some of whose faces between features have no map: in the others they hold.
+#include "SessionHelpers.h"
+
+#include "Mesh/Distance.h"
+#include "StaggeredTube.h"
+
+#include <array>
+#include <limits>
+
+namespace quadrille
+{
+namespace
+{
+
+using namespace quadrille::test;
+
+/// Of four patches, which are the halves of a tube in front and behind, left and right.
+class ConstraintsOnFilledFaces : public ::testing::Test
+{
+protected:
+  ConstraintsOnFilledFaces() : session_(input(), options())
+  {
+    EXPECT_TRUE(session_.update().status.ok());
+    EXPECT_FALSE(filled().empty());
+    for (const double x : { -0.5, 0.5 })
+    {
+      for (const double z : { -0.5, 0.5 })
+      {
+        const Vector3 place(x, 0, z);
+        (isFilled(place) ? inFilled_ : inRest_).push_back(place);
+      }
+    }
+  }
+
+  static SurfaceInput input()
+  {
+    const PatchedMesh tube = staggeredTube(0.02);
+    SurfaceInput input = toInput(tube.mesh);
+    input.patchIds = tube.patch;
+    input.patchesYield = true;
+    return input;
+  }
+  static RemeshOptions options()
+  {
+    RemeshOptions options = sessionOptions(600);
+    options.coarseVertices = RemeshOptions().coarseVertices;
+    return options;
+  }
+
+  std::vector<Vector3> filled() const { return session_.result()->fixed.insideOfFaces; }
+  bool isFilled(const Vector3& place) const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b, c] : session_.result()->fixed.withoutMap)
+    {
+      least = std::min(least, (nearestOnTriangle(place, a, b, c) - place).norm());
+    }
+    return least < 0.02;
+  }
+
+  ConstraintReport wordOn(int id)
+  {
+    const SessionReport& report = session_.update();
+    EXPECT_TRUE(report.status.ok()) << report.status.message;
+    for (const ConstraintReport& word : report.constraints)
+    {
+      if (word.id == id)
+      {
+        return word;
+      }
+    }
+    ADD_FAILURE() << "no word on " << id;
+    return {};
+  }
+
+  Session session_;
+  std::vector<Vector3> inFilled_, inRest_; ///< places on the surface, in the middle of patches
+};
+
+TEST_F(ConstraintsOnFilledFaces, SomeFacesHaveAMap)
+{
+  EXPECT_FALSE(inFilled_.empty());
+  EXPECT_FALSE(inRest_.empty());
+}
+
+TEST_F(ConstraintsOnFilledFaces, AValenceIsMetWhereThereIsAMap)
+{
+  const std::size_t before = filled().size();
+  const ConstraintReport word = wordOn(session_.add(ValenceAt{ inRest_.front(), 3 }));
+  EXPECT_TRUE(word.isMet) << word.reason;
+  EXPECT_LT(word.deviation, 1e-3);
+  EXPECT_EQ(filled().size(), before);
+}
+
+TEST_F(ConstraintsOnFilledFaces, AValenceIsNotMetWhereThereIsNone)
+{
+  const std::size_t before = filled().size();
+  const ConstraintReport word = wordOn(session_.add(ValenceAt{ inFilled_.front(), 5 }));
+  EXPECT_FALSE(word.isMet);
+  EXPECT_FALSE(word.reason.empty());
+  EXPECT_LE(filled().size(), before);
+}
+
+TEST_F(ConstraintsOnFilledFaces, OperationsLeaveTheFacesThatHaveNoMap)
+{
+  const std::vector<Vector3> before = filled();
+  const Vector3 side = Vector3(0.25, 0, 0);
+  const int added = session_.add(IrregularEdit{
+    IrregularOperation::Add, { inRest_.front() - side, inRest_.front() + side }, {}, {}, {}, {} });
+  ConstraintReport word = wordOn(added);
+  EXPECT_TRUE(word.isMet) << word.reason;
+  EXPECT_EQ(filled().size(), before.size());
+  const int moved = session_.add(IrregularEdit{ IrregularOperation::Move,
+    { inRest_.front() + side, inRest_.front() + side / 2 }, {}, {}, {}, {} });
+  word = wordOn(moved);
+  EXPECT_TRUE(word.isMet) << word.reason;
+  EXPECT_EQ(filled().size(), before.size());
+}
+
+TEST_F(ConstraintsOnFilledFaces, OperationsOfAFileGiveTheSame)
+{
+  const Vector3 side = Vector3(0.25, 0, 0);
+  session_.add(IrregularEdit{
+    IrregularOperation::Add, { inRest_.front() - side, inRest_.front() + side }, {}, {}, {}, {} });
+  ASSERT_TRUE(session_.update().status.ok());
+  const std::string path = ::testing::TempDir() + "filled_faces.qsession";
+  session_.save(path);
+  Session loaded = Session::load(path, input());
+  ASSERT_TRUE(loaded.update().status.ok());
+  EXPECT_TRUE(areSame(loaded.result()->quads, session_.result()->quads));
+}
+
+TEST_F(ConstraintsOnFilledFaces, ALineIsMetWhereThereIsAMap)
+{
+  // Across the patch, from the one seam of the halves to the other one.
+  const double x = inRest_.front().x(), z = inRest_.front().z();
+  const std::size_t before = filled().size();
+  const ConstraintReport word =
+    wordOn(session_.add(Connection{ { { x, 0.5, 0 }, { x, 0, z }, { x, -0.5, 0 } } }));
+  EXPECT_TRUE(word.isMet) << word.reason;
+  EXPECT_LE(filled().size(), before);
+}
+
+TEST_F(ConstraintsOnFilledFaces, ALineThroughThemIsNotMet)
+{
+  const double x = inFilled_.front().x(), z = inFilled_.front().z();
+  const ConstraintReport word =
+    wordOn(session_.add(Connection{ { { x, 0.5, 0 }, { x, 0, z }, { x, -0.5, 0 } } }));
+  EXPECT_FALSE(word.isMet);
+  EXPECT_NE(word.reason.find("has no map"), std::string::npos) << word.reason;
+}
+
+} // namespace
+} // namespace quadrille
