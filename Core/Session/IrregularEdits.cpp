@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/IrregularEdits.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
@@ -366,6 +367,18 @@ FixedPlaces fixedPlaces(
     }
   }
   return fixed;
+}
+
+std::string lostMapText(const std::vector<Vector3>& with, const std::vector<Vector3>& without)
+{
+  if (with.size() <= without.size())
+  {
+    return {};
+  }
+  const auto isNew = [&](const Vector3& place) { return !contains(without, place); };
+  return "with it a face between sharp edges has no map with quads of this size, near " +
+    placeText(*std::find_if(with.begin(), with.end(), isNew)) +
+    ": ask for more quads, or choose another place";
 }
 
 std::vector<HeldVertex> featureVertices(

@@ -48,6 +48,9 @@ std::vector<IrregularVertex> irregularVertices(const MadeSurface& made,
 /// What operations cannot change. insideOfFaces: RunMap::withoutMap.
 FixedPlaces fixedPlaces(
   const MadeSurface& made, const OnCurves& onCurves, const std::vector<Vector3>& insideOfFaces);
+/// Why what was asked for cannot be: faces have no map that had one without it, by RunMap::withoutMap of both runs;
+/// empty where there are none.
+std::string lostMapText(const std::vector<Vector3>& with, const std::vector<Vector3>& without);
 /// Ends, corners and bends of features and boundaries, ascending by point of the input. onFeatures: of the
 /// RemeshResult.
 std::vector<HeldVertex> featureVertices(

@@ -167,6 +167,7 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
       list.add(static_cast<int>(i) + 1, placed[i]);
     }
   }
+  const std::vector<Vector3> before = made.remeshed.withoutMap;
   std::map<int, std::string> leftOut;
   LinePlacements lines;
   bool holdsFeatures = true;
@@ -186,20 +187,22 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
       last = composed.parts[c].whyNot.empty() ? id : last;
     }
     made = run(std::move(composed.input), options);
-    if (!isForOtherReasons(made.remeshed.status) && isHeld)
+    const std::string whyNot = isForOtherReasons(made.remeshed.status)
+      ? lostMapText(made.remeshed.withoutMap, before)
+      : made.remeshed.status.message;
+    if (!whyNot.empty() && isHeld)
     {
       notices.push_back(
-        "moves may change irregular vertices on features, as these cannot be held: " +
-        made.remeshed.status.message);
+        "moves may change irregular vertices on features, as these cannot be held: " + whyNot);
       holdsFeatures = false;
       continue;
     }
-    if (isForOtherReasons(made.remeshed.status) || !last)
+    if (whyNot.empty() || !last)
     {
       tellLeftOut(placed, notices);
       return made;
     }
-    leftOut[*last] = made.remeshed.status.message;
+    leftOut[*last] = whyNot;
   }
 }
 

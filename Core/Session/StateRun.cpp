@@ -125,14 +125,18 @@ private:
       return true;
     }
     const auto isAny = [](const ConstraintContent&) { return true; };
+    if (wasStopped_)
+    {
+      return false;
+    }
     if (hasFewerDetails(made) && isLeft(isAny, leftOut) &&
       !hasFewerDetails(without(isAny, withoutAny_, leftOut)))
     {
       return true;
     }
     return !made.withoutMap.empty() && isLeft(asksOfMap, leftOut) &&
-      made.withoutMap.size() >
-      without(asksOfMap, withoutMapConstraints_, leftOut).withoutMap.size();
+      !lostMapText(made.withoutMap, without(asksOfMap, withoutMapConstraints_, leftOut).withoutMap)
+         .empty();
   }
 
   /// Whether some constraint of these kinds is in force.
@@ -174,19 +178,14 @@ private:
     {
       return made.status.message;
     }
-    if (hasFewerDetails(made))
-    {
-      return "no attempt has led to quads that keep all handles and boundary loops of the surface: "
-             "ask for smaller quads, or have these simplified (Small Details)";
-    }
-    const auto isNew = [&](const Vector3& place)
-    {
-      const std::vector<Vector3>& before = withoutMapConstraints_->withoutMap;
-      return std::find(before.begin(), before.end(), place) == before.end();
-    };
-    const Vector3& place = *std::find_if(made.withoutMap.begin(), made.withoutMap.end(), isNew);
-    return "with it a face between sharp edges has no map with quads of this size, near " +
-      placeText(place) + ": ask for more quads, or choose another place";
+    const std::string face = withoutMapConstraints_
+      ? lostMapText(made.withoutMap, withoutMapConstraints_->withoutMap)
+      : std::string();
+    return !face.empty()
+      ? face
+      : "no attempt has led to quads that keep all handles and boundary loops of "
+        "the surface: ask for "
+        "smaller quads, or have these simplified (Small Details)";
   }
 
   void takeIrregular(const RemeshResult& made, SessionResult& result)
@@ -243,7 +242,8 @@ private:
   RemeshResult runWith(const std::map<int, std::string>& leftOut)
   {
     RemeshResult made = runOnce(leftOut);
-    if (!isLeft(asksOfMap, leftOut) || composed_.symmetry || !composed_.input.withoutMap.empty() ||
+    if (wasStopped_ || !isLeft(asksOfMap, leftOut) || composed_.symmetry ||
+      !composed_.input.withoutMap.empty() ||
       !(mayBeForConstraints(made) || !made.withoutMap.empty()))
     {
       return made;

@@ -5,6 +5,7 @@
 
 #include "PlyFile.h"
 #include "Quads/QuadTopology.h"
+#include "StaggeredTube.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -333,6 +334,16 @@ TEST(RandomSessions, OnABoxWithFeatures)
 {
   runOn(toInput(unitCube(8)), 7);
   runOn(toInput(squareTorus(4)), 8);
+}
+
+/// Some of whose faces between features have no map.
+TEST(RandomSessions, OnPatchesThatAreFilled)
+{
+  const PatchedMesh tube = staggeredTube(0.02);
+  SurfaceInput surface = toInput(tube.mesh);
+  surface.patchIds = tube.patch;
+  surface.patchesYield = true;
+  runOn(surface, 11);
 }
 
 TEST(RandomSessions, OnAFileWithHandles)
