@@ -114,6 +114,14 @@ struct SectorRequest
   std::vector<HeldSector> sectors; ///< see HeldVertex
 };
 
+/// Of requests that name a vertex each.
+template <typename Request>
+void sortByVertex(std::vector<Request>& requests)
+{
+  std::sort(requests.begin(), requests.end(),
+    [](const Request& a, const Request& b) { return a.vertex < b.vertex; });
+}
+
 /// Two parts of the boundary that are images of each other, by the places of boundary vertices at their ends. One
 /// runs along the boundary from `from` to `to` without another end between them, the other from the image of `to` to
 /// that of `from`. from == to: both are closed.

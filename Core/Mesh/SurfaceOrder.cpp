@@ -123,14 +123,12 @@ void renameRequests(PreparedSurface& surface, const NewId& newId)
   {
     request.vertex = newId(request.vertex);
   }
-  std::sort(surface.valenceRequests.begin(), surface.valenceRequests.end(),
-    [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
+  sortByVertex(surface.valenceRequests);
   for (SectorRequest& request : surface.sectorRequests)
   {
     request.vertex = newId(request.vertex);
   }
-  std::sort(surface.sectorRequests.begin(), surface.sectorRequests.end(),
-    [](const SectorRequest& a, const SectorRequest& b) { return a.vertex < b.vertex; });
+  sortByVertex(surface.sectorRequests);
 }
 
 /// Puts the vertices that have a face into curve order and renames the corners.

@@ -45,8 +45,7 @@ void moveRequests(
   requests.erase(std::remove_if(requests.begin(), requests.end(),
                    [](const Request& request) { return request.vertex == kInvalidIndex; }),
     requests.end());
-  std::sort(requests.begin(), requests.end(),
-    [](const Request& a, const Request& b) { return a.vertex < b.vertex; });
+  sortByVertex(requests);
 }
 
 } // namespace

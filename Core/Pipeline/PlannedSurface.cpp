@@ -89,8 +89,7 @@ PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int thr
   if (plan.counterparts)
   {
     append(planned.valenceRequests, *plan.counterparts);
-    std::sort(planned.valenceRequests.begin(), planned.valenceRequests.end(),
-      [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
+    sortByVertex(planned.valenceRequests);
   }
   const ResultKey keyWithoutSizes = key.key();
   if (plan.sizes)

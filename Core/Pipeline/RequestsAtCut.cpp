@@ -37,13 +37,6 @@ std::map<Index, std::vector<Index>> cornersAtCut(
   return corners;
 }
 
-template <class Request>
-void sortByVertex(std::vector<Request>& requests)
-{
-  std::sort(requests.begin(), requests.end(),
-    [](const Request& a, const Request& b) { return a.vertex < b.vertex; });
-}
-
 } // namespace
 
 void moveRequestsToSides(

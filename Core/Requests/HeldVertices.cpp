@@ -215,8 +215,7 @@ std::vector<SectorRequest> placeHeldVertices(
       append(sectors.back().sectors, held.sectors);
     }
   }
-  std::sort(sectors.begin(), sectors.end(),
-    [](const SectorRequest& a, const SectorRequest& b) { return a.vertex < b.vertex; });
+  sortByVertex(sectors);
   return sectors;
 }
 
@@ -237,8 +236,7 @@ std::vector<SectorRequest> sectorsOf(const Mesh& level, const std::vector<std::i
       result.back().sectors.push_back({ sector.middle, sectorTurns[sector.first] });
     }
   }
-  std::sort(result.begin(), result.end(),
-    [](const SectorRequest& a, const SectorRequest& b) { return a.vertex < b.vertex; });
+  sortByVertex(result);
   return result;
 }
 
