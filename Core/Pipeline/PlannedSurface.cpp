@@ -8,7 +8,6 @@
 #include "Mesh/FlatSources.h"
 #include "Mesh/Sizing.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace quadrille
