@@ -176,7 +176,7 @@ void pqQuadrilleDrawing::listenTo(pqView* view)
 {
   this->stopListening();
   auto* renderView = qobject_cast<pqRenderView*>(view);
-  if (this->Current == Tool::None || !renderView)
+  if (this->Current == Tool::None || !renderView || !renderView->widget()) // it is being closed
   {
     return;
   }
