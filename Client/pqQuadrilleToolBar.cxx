@@ -2,22 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadrilleToolBar.h"
 
+#include "MakeQuads.h"
 #include "RemeshConstraints.h"
 #include "pqQuadrilleDrawing.h"
-#include "pqQuadrilleRun.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
-#include "pqObjectBuilder.h"
 #include "pqPipelineSource.h"
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
-#include "pqView.h"
-#include "vtkNew.h"
-#include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMSourceProxy.h"
-#include "vtkSMViewProxy.h"
-#include "vtkWeakPointer.h"
 
 #include <QAction>
 #include <QDoubleSpinBox>
@@ -107,20 +101,6 @@ QString whyNoDrawing(pqPipelineSource* selected)
   return selected ? selected->getSMName() +
       " has no Quad Remesh: select one in the pipeline, or make one with the first button."
                   : QString("there is no Quad Remesh: the first button makes one.");
-}
-
-/// The outputs of the filter that are shown at first, in place of the surface.
-void showInstead(vtkSMSourceProxy* filter, vtkSMSourceProxy* surface, vtkSMViewProxy* view)
-{
-  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-  for (unsigned int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
-  {
-    controller->ShowInPreferredView(filter, static_cast<int>(port), view);
-  }
-  if (view && surface)
-  {
-    controller->SetVisibility(surface, 0, view, false);
-  }
 }
 
 } // namespace
@@ -254,34 +234,18 @@ void pqQuadrilleToolBar::refresh()
 void pqQuadrilleToolBar::makeQuads()
 {
   pqPipelineSource* surface = pqActiveObjects::instance().activeSource();
-  pqView* view = pqActiveObjects::instance().activeView();
   if (!surface)
   {
     return;
   }
   BEGIN_UNDO_SET("Quad Remesh");
-  pqPipelineSource* filter = pqApplicationCore::instance()->getObjectBuilder()->createFilter(
-    "filters", "QuadRemesh", surface);
-  if (!filter)
+  const auto then = [](pqQuadrilleRun::End how, vtkSMSourceProxy*)
+  {
+    END_UNDO_SET(); // with what was shown
+    pqQuadrilleRun::undoIfStopped(how);
+  };
+  if (!quadrille::makeQuads(surface, {}, then))
   {
     END_UNDO_SET();
-    return;
   }
-  filter->setModifiedState(pqProxy::UNMODIFIED);
-  const vtkWeakPointer<vtkSMSourceProxy> made = filter->getSourceProxy();
-  const vtkWeakPointer<vtkSMSourceProxy> shown = surface->getSourceProxy();
-  const vtkWeakPointer<vtkSMViewProxy> shownIn = view ? view->getViewProxy() : nullptr;
-  pqQuadrilleRun::instance()->start(made,
-    [made, shown, shownIn](pqQuadrilleRun::End how)
-    {
-      if (how == pqQuadrilleRun::End::Shown && made)
-      {
-        showInstead(made, shown, shownIn);
-      }
-      END_UNDO_SET(); // with what was shown
-      if (how == pqQuadrilleRun::End::Stopped && made)
-      {
-        pqApplicationCore::instance()->getUndoStack()->undo();
-      }
-    });
 }
