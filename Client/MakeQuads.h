@@ -31,8 +31,8 @@ void setNumbers(vtkSMProxy* proxy, const std::vector<std::pair<std::string, int>
 using Made = std::function<void(pqQuadrilleRun::End how, vtkSMSourceProxy* filter)>;
 
 /// A Quad Remesh of the surface, whose quads are made beside the window and shown in the active view in the place of
-/// the surface. What it makes belongs to the undo set of the caller, if there is one, who closes it in `then`. False, and `then` is not
-/// called, where there can be no such filter.
+/// the surface. What it makes belongs to the undo set of the caller, if there is one, who closes it in `then`. False,
+/// and `then` is not called, where there can be no such filter.
 bool makeQuads(pqPipelineSource* surface, const NewQuads& wanted, const Made& then);
 
 } // namespace quadrille

@@ -5,8 +5,8 @@
   test_first_minutes.py XVFB PARAVIEW PVPYTHON OPENBOX [--size WIDTH HEIGHT] [--server WORD...]
 
 The tutorial is walked through: its strip goes on when what it says is done, and not when something else is. Each
-example is opened and looked at: quads, constraints, symmetry, elements. With --server the window is connected to what these
-words start, such as pvserver. Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox and
+example is opened and looked at: quads, constraints, symmetry, elements. With --server the window is connected to what
+these words start, such as pvserver. Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox and
 xdotool.
 """
 import argparse
@@ -37,7 +37,8 @@ class Session(test_draw.Session):
     def help(self, entry):
         """Help > Quadrille > its first entry, 0, or one of the examples, which stand below a separator."""
         rows = self.rows()
-        words = [x for x in range(count_actions.WIDTH // 2) if any(max(rows[y][3 * x:3 * x + 3]) < 90 for y in MENU_BAR)]
+        words = [x for x in range(count_actions.WIDTH // 2)
+                 if any(max(rows[y][3 * x:3 * x + 3]) < 90 for y in MENU_BAR)]
         below = 34 + entry * ENTRY + (2 if entry else 0)
         self.xdotool("mousemove", words[-1] - 10, 10, "sleep", 0.2, "click", 1, "sleep", 0.7,
                      "mousemove_relative", 30, 24, "sleep", 0.2, "click", 1, "sleep", 0.7)
