@@ -3,7 +3,7 @@
 #include "Examples.h"
 
 #include "MakeQuads.h"
-#include "StatusBar.h"
+#include "Word.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"

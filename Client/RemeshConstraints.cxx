@@ -11,6 +11,8 @@
 #include "vtkDataArray.h"
 #include "vtkLine.h"
 #include "vtkNew.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPolyData.h"
 #include "vtkSMInputProperty.h"
 #include "vtkSMIntVectorProperty.h"
@@ -414,6 +416,14 @@ std::vector<Place> closedCut(vtkSMSourceProxy* source, const Place& origin, cons
       }
     });
   return nearest.isClosed ? nearest.places : std::vector<Place>{};
+}
+
+bool hasUnmetConstraints(vtkSMSourceProxy* filter)
+{
+  vtkPVArrayInformation* met = filter->GetOutputPortsCreated()
+    ? filter->GetDataInformation(kConstraintTable)->GetArrayInformation("Met", vtkDataObject::ROW)
+    : nullptr;
+  return met && met->GetComponentRange(0)[0] == 0;
 }
 
 std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::string& kind)

@@ -84,6 +84,9 @@ struct ConstraintWord
   std::string reason;
 };
 
+/// Whether there is one that is not met.
+bool hasUnmetConstraints(vtkSMSourceProxy* filter);
+
 /// The word on the last constraint of a kind (of the column Kind of the Constraint Table); none where it tells of none.
 std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::string& kind);
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadrilleDrawing.h"
 
-#include "StatusBar.h"
+#include "Word.h"
 #include "pqQuadrilleOverlay.h"
 #include "pqQuadrilleRun.h"
 

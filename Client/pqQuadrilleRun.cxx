@@ -3,7 +3,7 @@
 #include "pqQuadrilleRun.h"
 
 #include "InvokeOnObject.h"
-#include "StatusBar.h"
+#include "Word.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"

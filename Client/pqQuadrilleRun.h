@@ -46,7 +46,7 @@ public:
   /// Executes the filter; then: what is done when its quads are shown, or will not be. Where one run takes the
   /// place of another what was to be done after that one is done after this one.
   void start(vtkSMSourceProxy* filter, Then then);
-  /// The same for a preview, of which the status bar tells nothing, and which Escape does not stop.
+  /// The same for a preview, of which nothing is told, and which Escape does not stop.
   void startPreview(vtkSMSourceProxy* filter, Then then);
   /// What ParaView is about to execute the filter for becomes such a run, too, if it executes it at all.
   void follow(vtkSMSourceProxy* filter);
@@ -69,7 +69,7 @@ private:
   QTimer Timer;
   vtkWeakPointer<vtkSMSourceProxy> Filter; ///< whose run is not over
   std::vector<Then> Waiting;
-  bool IsTold = false; ///< in the status bar
+  bool IsTold = false; ///< in the tool bar
 };
 
 #endif

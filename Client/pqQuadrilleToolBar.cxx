@@ -4,6 +4,7 @@
 
 #include "MakeQuads.h"
 #include "RemeshConstraints.h"
+#include "Word.h"
 #include "pqQuadrilleDrawing.h"
 
 #include "pqActiveObjects.h"
@@ -70,7 +71,7 @@ QString whyNoQuads(pqPipelineSource* selected)
   }
   if (selected->modifiedState() == pqProxy::UNINITIALIZED)
   {
-    return selected->getSMName() + " is not applied yet.";
+    return selected->getSMName() + " is not applied yet: press Apply in the panel.";
   }
   if (!quadrille::isSurface(selected->getSourceProxy()))
   {
@@ -95,7 +96,7 @@ QString whyNoDrawing(pqPipelineSource* selected)
     auto* source = model->findItem<pqPipelineSource*>(filter);
     // What a redo has brought back is uninitialized for ParaView, though it is shown.
     return source && source->modifiedState() == pqProxy::UNINITIALIZED && source->getViews().empty()
-      ? source->getSMName() + " is not applied yet."
+      ? source->getSMName() + " is not applied yet: press Apply in the panel."
       : QString();
   }
   return selected ? selected->getSMName() +
@@ -123,6 +124,7 @@ pqQuadrilleToolBar::pqQuadrilleToolBar(QWidget* parent)
   this->Remove = this->add("Remove", "Remove Last: takes away the constraint that was made last");
   QObject::connect(
     this->Remove, &QAction::triggered, this->Drawing, &pqQuadrilleDrawing::removeLast);
+  quadrille::addRoomForWords(this);
   this->watchPipeline();
   this->refresh();
 }

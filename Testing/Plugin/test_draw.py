@@ -47,9 +47,9 @@ class Session(test_places.Session):
     def find_tools(self):
         """The buttons of the tool bar, which has a row of its own above the panels: icons with gaps between them."""
         rows = self.rows()
-        top, bottom, empty = 152, 174, 3 * (WIDTH // 2)
+        top, bottom, empty = 152, 174, 3 * 13
         icons, start, last = [], None, 0
-        for x in range(WIDTH // 2):
+        for x in range(13, WIDTH // 4):
             if any(rows[y][3 * x:3 * x + 3] != rows[y][empty:empty + 3] for y in range(top, bottom)):
                 start, last = x if start is None else start, x
             elif start is not None and x - last > 3:
