@@ -7,6 +7,7 @@
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
+#include "pqCoreUtilities.h"
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "pqView.h"
@@ -16,6 +17,7 @@
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QKeyEvent>
 
@@ -167,6 +169,7 @@ void pqQuadrilleRun::look()
   }
   else if (this->IsTold)
   {
+    this->holdSaving();
     quadrille::say(QString("Making quads: %1 %. Escape stops it.")
                      .arg(ask(this->Filter, "GetUnderwayProgress")));
   }
@@ -202,9 +205,44 @@ void pqQuadrilleRun::stop()
 }
 
 //-----------------------------------------------------------------------------
+void pqQuadrilleRun::holdSaving()
+{
+  if (this->Saving.empty())
+  {
+    for (QObject* object : pqCoreUtilities::mainWidget()->findChildren<QObject*>())
+    {
+      if (object->inherits("pqSaveDataReaction"))
+      {
+        this->Saving.emplace_back(object);
+      }
+    }
+  }
+  for (const QPointer<QObject>& reaction : this->Saving)
+  {
+    if (auto* action = reaction ? qobject_cast<QAction*>(reaction->parent()) : nullptr)
+    {
+      action->setEnabled(false); // ParaView makes it live again whenever something is selected
+    }
+  }
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleRun::releaseSaving()
+{
+  for (const QPointer<QObject>& reaction : std::exchange(this->Saving, {}))
+  {
+    if (reaction)
+    {
+      QMetaObject::invokeMethod(reaction, "updateEnableState");
+    }
+  }
+}
+
+//-----------------------------------------------------------------------------
 void pqQuadrilleRun::end(End how)
 {
   this->Timer.stop();
+  this->releaseSaving();
   qApp->removeEventFilter(this);
   this->Filter = nullptr;
   if (this->IsTold)

@@ -6,6 +6,7 @@
 #include "vtkWeakPointer.h"
 
 #include <QObject>
+#include <QPointer>
 #include <QTimer>
 
 #include <functional>
@@ -65,11 +66,15 @@ private:
   void look();
   void show();
   void end(End how);
+  /// Save Data would write the quads from before: grey while there are others to come.
+  void holdSaving();
+  void releaseSaving();
 
   QTimer Timer;
   vtkWeakPointer<vtkSMSourceProxy> Filter; ///< whose run is not over
   std::vector<Then> Waiting;
-  bool IsTold = false; ///< in the tool bar
+  bool IsTold = false;                   ///< in the tool bar
+  std::vector<QPointer<QObject>> Saving; ///< ParaView's reactions of Save Data
 };
 
 #endif
