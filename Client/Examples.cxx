@@ -207,7 +207,7 @@ void openExample(std::size_t number)
     makeQuads(surface, example.wanted,
       [example, surface](pqQuadrilleRun::End how, vtkSMSourceProxy* filter)
       {
-        if (filter && surface)
+        if (how != pqQuadrilleRun::End::Gone && filter && surface)
         {
           finish(example, surface, filter, how);
         }

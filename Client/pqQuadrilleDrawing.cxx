@@ -874,7 +874,7 @@ void pqQuadrilleDrawing::execute(vtkSMSourceProxy* filter, const std::string& so
         pqApplicationCore::instance()->getUndoStack()->undo();
         say(QString("%1: stopped, and taken back.").arg(kindOf(source).name));
       }
-      else if (executed)
+      else if (how == pqQuadrilleRun::End::Shown && executed)
       {
         this->tellOutcome(executed, source);
       }

@@ -132,7 +132,7 @@ void pqQuadrilleRun::follow(vtkSMSourceProxy* filter)
 //-----------------------------------------------------------------------------
 void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
 {
-  if (this->Filter && this->Filter != filter)
+  if (this->Filter && this->Filter->GetSession() && this->Filter != filter)
   {
     this->show(); // it waits for the run
   }
@@ -159,7 +159,7 @@ void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
 //-----------------------------------------------------------------------------
 void pqQuadrilleRun::look()
 {
-  if (!this->Filter)
+  if (!this->Filter || !this->Filter->GetSession()) // a panel may hold it when its server was left
   {
     this->end(End::Gone);
   }
@@ -196,7 +196,7 @@ void pqQuadrilleRun::show()
 //-----------------------------------------------------------------------------
 void pqQuadrilleRun::stop()
 {
-  if (this->Filter)
+  if (this->Filter && this->Filter->GetSession())
   {
     invoke(this->Filter, "StopUnderway");
     invoke(this->Filter, "TakeUnderway");
