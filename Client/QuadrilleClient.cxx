@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "HelpMenu.h"
 #include "UndoInTrace.h"
 #include "WindowPauses.h"
 #include "pqQuadrilleHandles.h"
@@ -34,6 +35,7 @@ void placeToolBar()
     window->addToolBarBreak(Qt::TopToolBarArea);
     window->addToolBar(Qt::TopToolBarArea, bar);
     new pqQuadrilleHandles(bar);
+    quadrille::addToHelpMenu(window, bar->drawing());
     quadrille::traceUndo(bar);
     quadrille::writePauses(bar);
   }

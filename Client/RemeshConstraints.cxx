@@ -11,6 +11,8 @@
 #include "vtkDataArray.h"
 #include "vtkLine.h"
 #include "vtkNew.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPolyData.h"
 #include "vtkSMInputProperty.h"
 #include "vtkSMIntVectorProperty.h"
@@ -163,9 +165,9 @@ vtkSMSourceProxy* remeshOf(vtkSMSourceProxy* surface, vtkSMProxy* active)
   return vtkSMSourceProxy::SafeDownCast(last);
 }
 
-vtkSMSourceProxy* addConstraint(vtkSMSourceProxy* filter, const NewConstraint& constraint)
+vtkSMSourceProxy* registerConstraint(
+  vtkSMSessionProxyManager* manager, const NewConstraint& constraint)
 {
-  vtkSMSessionProxyManager* manager = filter->GetSessionProxyManager();
   auto made = vtkSmartPointer<vtkSMSourceProxy>::Take(
     vtkSMSourceProxy::SafeDownCast(manager->NewProxy("sources", constraint.source.c_str())));
   if (!made)
@@ -194,12 +196,27 @@ vtkSMSourceProxy* addConstraint(vtkSMSourceProxy* filter, const NewConstraint& c
     controller->RegisterPipelineProxy(made);
     selectionOf(manager)->SetCurrentProxy(selected, vtkSMProxySelectionModel::CLEAR_AND_SELECT);
   }
+  return made;
+}
+
+vtkSMSourceProxy* addConstraint(vtkSMSourceProxy* filter, const NewConstraint& constraint)
+{
+  vtkSMSourceProxy* made = registerConstraint(filter->GetSessionProxyManager(), constraint);
+  if (made)
   {
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
-    vtkSMPropertyHelper(filter, "Constraints").Add(made);
-    filter->UpdateVTKObjects();
+    connectConstraints(filter, { made });
   }
   return made;
+}
+
+void connectConstraints(vtkSMSourceProxy* filter, const std::vector<vtkSMSourceProxy*>& constraints)
+{
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
+  for (vtkSMSourceProxy* constraint : constraints)
+  {
+    vtkSMPropertyHelper(filter, "Constraints").Add(constraint);
+  }
+  filter->UpdateVTKObjects();
 }
 
 vtkSmartPointer<vtkSMQuadConstraintProxy> newMove(vtkSMSourceProxy* filter)
@@ -399,6 +416,14 @@ std::vector<Place> closedCut(vtkSMSourceProxy* source, const Place& origin, cons
       }
     });
   return nearest.isClosed ? nearest.places : std::vector<Place>{};
+}
+
+bool hasUnmetConstraints(vtkSMSourceProxy* filter)
+{
+  vtkPVArrayInformation* met = filter->GetOutputPortsCreated()
+    ? filter->GetDataInformation(kConstraintTable)->GetArrayInformation("Met", vtkDataObject::ROW)
+    : nullptr;
+  return met && met->GetComponentRange(0)[0] == 0;
 }
 
 std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::string& kind)

@@ -14,6 +14,7 @@
 
 class vtkSMProxy;
 class vtkSMQuadConstraintProxy;
+class vtkSMSessionProxyManager;
 class vtkSMSourceProxy;
 
 namespace quadrille
@@ -35,8 +36,16 @@ struct NewConstraint
   std::vector<std::pair<std::string, std::vector<double>>> values;
 };
 
-/// A source that is registered, and one of the constraints of the filter. What is selected in the pipeline stays. The
-/// filter is not updated. Null where the server does not know such a source.
+/// A source that is registered. What is selected in the pipeline stays. Null where the server does not know such a
+/// source.
+vtkSMSourceProxy* registerConstraint(
+  vtkSMSessionProxyManager* manager, const NewConstraint& constraint);
+
+/// Makes registered sources constraints of the filter, which is not updated.
+void connectConstraints(
+  vtkSMSourceProxy* filter, const std::vector<vtkSMSourceProxy*>& constraints);
+
+/// Both.
 vtkSMSourceProxy* addConstraint(vtkSMSourceProxy* filter, const NewConstraint& constraint);
 
 /// A move of an irregular vertex that belongs to no filter and is not in the pipeline: for previews. Null where the
@@ -74,6 +83,9 @@ struct ConstraintWord
   bool isMet = false;
   std::string reason;
 };
+
+/// Whether there is one that is not met.
+bool hasUnmetConstraints(vtkSMSourceProxy* filter);
 
 /// The word on the last constraint of a kind (of the column Kind of the Constraint Table); none where it tells of none.
 std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::string& kind);

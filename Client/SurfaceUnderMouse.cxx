@@ -165,6 +165,7 @@ std::vector<std::optional<Place>> placesUnder(
 
 HeldSurface::HeldSurface(vtkSMSourceProxy* source) : places_(newPlaces(source))
 {
+  const pqScopedUndoExclude noStepOfTheUser;
   if (places_)
   {
     places_->UpdateVTKObjects();
@@ -178,6 +179,7 @@ std::optional<Place> HeldSurface::placeUnder(vtkSMRenderViewProxy* view, const P
   {
     return std::nullopt;
   }
+  const pqScopedUndoExclude noStepOfTheUser;
   const std::array<double, 6> ray = rayThrough(view->GetRenderer(), pixel);
   const std::vector<double> hit = hitsOf({ ray.begin(), ray.end() }, places_);
   return hit.size() == 3 && std::isfinite(hit[0]) ? std::optional<Place>({ hit[0], hit[1], hit[2] })

@@ -170,9 +170,11 @@ void pqQuadVerdictWidget::refresh()
   const QString text = QString::fromUtf8(vtkSMPropertyHelper(this->Verdict).GetAsString());
   const bool isWrong = !text.isEmpty() && quadrille::hasProblems(this->filter());
   const bool isOpen = text.isEmpty() || text.startsWith("Underway");
+  const bool isUnmet = !isOpen && quadrille::isQuadRemesh(this->proxy()) &&
+    quadrille::hasUnmetConstraints(this->filter());
   const Mood mood = isOpen                            ? Mood::NotRun
     : !textOf(this->proxy(), "OutcomeText").isEmpty() ? Mood::Failed
-    : isWrong                                         ? Mood::Doubtful
+    : isWrong || isUnmet                              ? Mood::Doubtful
                                                       : Mood::Well;
   this->Text->setText(
     text.isEmpty() ? QString("Apply tells here what it made.") : firstLineOf(text));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadrilleDrawing.h"
 
-#include "StatusBar.h"
+#include "Word.h"
 #include "pqQuadrilleOverlay.h"
 #include "pqQuadrilleRun.h"
 
@@ -176,7 +176,7 @@ void pqQuadrilleDrawing::listenTo(pqView* view)
 {
   this->stopListening();
   auto* renderView = qobject_cast<pqRenderView*>(view);
-  if (this->Current == Tool::None || !renderView)
+  if (this->Current == Tool::None || !renderView || !renderView->widget()) // it is being closed
   {
     return;
   }
@@ -874,7 +874,7 @@ void pqQuadrilleDrawing::execute(vtkSMSourceProxy* filter, const std::string& so
         pqApplicationCore::instance()->getUndoStack()->undo();
         say(QString("%1: stopped, and taken back.").arg(kindOf(source).name));
       }
-      else if (executed)
+      else if (how == pqQuadrilleRun::End::Shown && executed)
       {
         this->tellOutcome(executed, source);
       }

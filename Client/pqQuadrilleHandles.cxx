@@ -83,7 +83,7 @@ void pqQuadrilleHandles::watchView(pqView* view)
 {
   this->stopWatching();
   auto* renderView = qobject_cast<pqRenderView*>(view);
-  if (!this->Constraint || !renderView)
+  if (!this->Constraint || !renderView || !renderView->widget()) // it is being closed
   {
     return;
   }

@@ -3,10 +3,11 @@
 #include "pqQuadrilleRun.h"
 
 #include "InvokeOnObject.h"
-#include "StatusBar.h"
+#include "Word.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
+#include "pqCoreUtilities.h"
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "pqView.h"
@@ -16,6 +17,7 @@
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QKeyEvent>
 
@@ -130,7 +132,7 @@ void pqQuadrilleRun::follow(vtkSMSourceProxy* filter)
 //-----------------------------------------------------------------------------
 void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
 {
-  if (this->Filter && this->Filter != filter)
+  if (this->Filter && this->Filter->GetSession() && this->Filter != filter)
   {
     this->show(); // it waits for the run
   }
@@ -157,7 +159,7 @@ void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
 //-----------------------------------------------------------------------------
 void pqQuadrilleRun::look()
 {
-  if (!this->Filter)
+  if (!this->Filter || !this->Filter->GetSession()) // a panel may hold it when its server was left
   {
     this->end(End::Gone);
   }
@@ -167,6 +169,7 @@ void pqQuadrilleRun::look()
   }
   else if (this->IsTold)
   {
+    this->holdSaving();
     quadrille::say(QString("Making quads: %1 %. Escape stops it.")
                      .arg(ask(this->Filter, "GetUnderwayProgress")));
   }
@@ -193,7 +196,7 @@ void pqQuadrilleRun::show()
 //-----------------------------------------------------------------------------
 void pqQuadrilleRun::stop()
 {
-  if (this->Filter)
+  if (this->Filter && this->Filter->GetSession())
   {
     invoke(this->Filter, "StopUnderway");
     invoke(this->Filter, "TakeUnderway");
@@ -202,9 +205,44 @@ void pqQuadrilleRun::stop()
 }
 
 //-----------------------------------------------------------------------------
+void pqQuadrilleRun::holdSaving()
+{
+  if (this->Saving.empty())
+  {
+    for (QObject* object : pqCoreUtilities::mainWidget()->findChildren<QObject*>())
+    {
+      if (object->inherits("pqSaveDataReaction"))
+      {
+        this->Saving.emplace_back(object);
+      }
+    }
+  }
+  for (const QPointer<QObject>& reaction : this->Saving)
+  {
+    if (auto* action = reaction ? qobject_cast<QAction*>(reaction->parent()) : nullptr)
+    {
+      action->setEnabled(false); // ParaView makes it live again whenever something is selected
+    }
+  }
+}
+
+//-----------------------------------------------------------------------------
+void pqQuadrilleRun::releaseSaving()
+{
+  for (const QPointer<QObject>& reaction : std::exchange(this->Saving, {}))
+  {
+    if (reaction)
+    {
+      QMetaObject::invokeMethod(reaction, "updateEnableState");
+    }
+  }
+}
+
+//-----------------------------------------------------------------------------
 void pqQuadrilleRun::end(End how)
 {
   this->Timer.stop();
+  this->releaseSaving();
   qApp->removeEventFilter(this);
   this->Filter = nullptr;
   if (this->IsTold)

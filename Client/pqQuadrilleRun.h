@@ -6,6 +6,7 @@
 #include "vtkWeakPointer.h"
 
 #include <QObject>
+#include <QPointer>
 #include <QTimer>
 
 #include <functional>
@@ -46,7 +47,7 @@ public:
   /// Executes the filter; then: what is done when its quads are shown, or will not be. Where one run takes the
   /// place of another what was to be done after that one is done after this one.
   void start(vtkSMSourceProxy* filter, Then then);
-  /// The same for a preview, of which the status bar tells nothing, and which Escape does not stop.
+  /// The same for a preview, of which nothing is told, and which Escape does not stop.
   void startPreview(vtkSMSourceProxy* filter, Then then);
   /// What ParaView is about to execute the filter for becomes such a run, too, if it executes it at all.
   void follow(vtkSMSourceProxy* filter);
@@ -65,11 +66,15 @@ private:
   void look();
   void show();
   void end(End how);
+  /// Save Data would write the quads from before: grey while there are others to come.
+  void holdSaving();
+  void releaseSaving();
 
   QTimer Timer;
   vtkWeakPointer<vtkSMSourceProxy> Filter; ///< whose run is not over
   std::vector<Then> Waiting;
-  bool IsTold = false; ///< in the status bar
+  bool IsTold = false;                   ///< in the tool bar
+  std::vector<QPointer<QObject>> Saving; ///< ParaView's reactions of Save Data
 };
 
 #endif

@@ -2,22 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadrilleToolBar.h"
 
+#include "MakeQuads.h"
 #include "RemeshConstraints.h"
+#include "Word.h"
 #include "pqQuadrilleDrawing.h"
-#include "pqQuadrilleRun.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
-#include "pqObjectBuilder.h"
 #include "pqPipelineSource.h"
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
-#include "pqView.h"
-#include "vtkNew.h"
-#include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMSourceProxy.h"
-#include "vtkSMViewProxy.h"
-#include "vtkWeakPointer.h"
 
 #include <QAction>
 #include <QDoubleSpinBox>
@@ -76,7 +71,7 @@ QString whyNoQuads(pqPipelineSource* selected)
   }
   if (selected->modifiedState() == pqProxy::UNINITIALIZED)
   {
-    return selected->getSMName() + " is not applied yet.";
+    return selected->getSMName() + " is not applied yet: press Apply in the panel.";
   }
   if (!quadrille::isSurface(selected->getSourceProxy()))
   {
@@ -101,26 +96,12 @@ QString whyNoDrawing(pqPipelineSource* selected)
     auto* source = model->findItem<pqPipelineSource*>(filter);
     // What a redo has brought back is uninitialized for ParaView, though it is shown.
     return source && source->modifiedState() == pqProxy::UNINITIALIZED && source->getViews().empty()
-      ? source->getSMName() + " is not applied yet."
+      ? source->getSMName() + " is not applied yet: press Apply in the panel."
       : QString();
   }
   return selected ? selected->getSMName() +
       " has no Quad Remesh: select one in the pipeline, or make one with the first button."
                   : QString("there is no Quad Remesh: the first button makes one.");
-}
-
-/// The outputs of the filter that are shown at first, in place of the surface.
-void showInstead(vtkSMSourceProxy* filter, vtkSMSourceProxy* surface, vtkSMViewProxy* view)
-{
-  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-  for (unsigned int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
-  {
-    controller->ShowInPreferredView(filter, static_cast<int>(port), view);
-  }
-  if (view && surface)
-  {
-    controller->SetVisibility(surface, 0, view, false);
-  }
 }
 
 } // namespace
@@ -143,6 +124,7 @@ pqQuadrilleToolBar::pqQuadrilleToolBar(QWidget* parent)
   this->Remove = this->add("Remove", "Remove Last: takes away the constraint that was made last");
   QObject::connect(
     this->Remove, &QAction::triggered, this->Drawing, &pqQuadrilleDrawing::removeLast);
+  quadrille::addRoomForWords(this);
   this->watchPipeline();
   this->refresh();
 }
@@ -254,34 +236,18 @@ void pqQuadrilleToolBar::refresh()
 void pqQuadrilleToolBar::makeQuads()
 {
   pqPipelineSource* surface = pqActiveObjects::instance().activeSource();
-  pqView* view = pqActiveObjects::instance().activeView();
   if (!surface)
   {
     return;
   }
   BEGIN_UNDO_SET("Quad Remesh");
-  pqPipelineSource* filter = pqApplicationCore::instance()->getObjectBuilder()->createFilter(
-    "filters", "QuadRemesh", surface);
-  if (!filter)
+  const auto then = [](pqQuadrilleRun::End how, vtkSMSourceProxy*)
+  {
+    END_UNDO_SET(); // with what was shown
+    pqQuadrilleRun::undoIfStopped(how);
+  };
+  if (!quadrille::makeQuads(surface, {}, then))
   {
     END_UNDO_SET();
-    return;
   }
-  filter->setModifiedState(pqProxy::UNMODIFIED);
-  const vtkWeakPointer<vtkSMSourceProxy> made = filter->getSourceProxy();
-  const vtkWeakPointer<vtkSMSourceProxy> shown = surface->getSourceProxy();
-  const vtkWeakPointer<vtkSMViewProxy> shownIn = view ? view->getViewProxy() : nullptr;
-  pqQuadrilleRun::instance()->start(made,
-    [made, shown, shownIn](pqQuadrilleRun::End how)
-    {
-      if (how == pqQuadrilleRun::End::Shown && made)
-      {
-        showInstead(made, shown, shownIn);
-      }
-      END_UNDO_SET(); // with what was shown
-      if (how == pqQuadrilleRun::End::Stopped && made)
-      {
-        pqApplicationCore::instance()->getUndoStack()->undo();
-      }
-    });
 }

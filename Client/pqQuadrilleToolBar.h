@@ -23,6 +23,8 @@ class pqQuadrilleToolBar : public QToolBar
 public:
   explicit pqQuadrilleToolBar(QWidget* parent = nullptr);
 
+  pqQuadrilleDrawing* drawing() const { return this->Drawing; }
+
 private:
   Q_DISABLE_COPY(pqQuadrilleToolBar)
 

@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Error.h"
+#include "Base/InvalidPolygon.h"
 #include "Blocks/Blocks.h"
 #include "Blocks/LevelMemory.h"
 #include "Blocks/Together.h"
@@ -283,7 +284,22 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   this->TellOfInputs(run->told);
   if (run->failure)
   {
-    std::rethrow_exception(run->failure);
+    try
+    {
+      std::rethrow_exception(run->failure);
+    }
+    catch (const quadrille::InvalidPolygon& error)
+    {
+      if (run->converted)
+      {
+        quadrille::Problems problems;
+        problems.failed = { quadrille::middleOf(input, run->converted->cell(error.polygon())) };
+        problems.surface = block.state->lastResult.empty() ? input : nullptr;
+        problems.words = { error.what() };
+        block.output(GetProblemPort())->ShallowCopy(quadrille::writeProblems(problems));
+      }
+      throw;
+    }
   }
   const quadrille::ConvertedSurface& converted = *run->converted;
   quadrille::AskedConstraints& asked = run->asked;

@@ -672,6 +672,8 @@ private:
   vtkTypeBool TextureCoordinates = 1;
   std::string RemedyText;
   vtkTypeBool InBackground = 0;
+  /// The run whose outputs are made; who waited for it looks at what is not met.
+  bool WasInBackground = false;
   double RememberedBefore = 0; ///< megabytes, when the run in the background began
   std::unique_ptr<quadrille::BackgroundRun> Background;
   std::unique_ptr<quadrille::BackgroundRun> Ending; ///< has been left

@@ -154,7 +154,10 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   for (const std::string& warning : quadrille::unmetNotices(words, run.asked))
   {
     notices.push_back(warning);
-    vtkWarningMacro(<< warning);
+    if (!this->WasInBackground)
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   quadrille::addText(quads, "Notices", notices);
   block.output(5)->ShallowCopy(quadrille::writeConstraints(

@@ -118,8 +118,10 @@ std::unique_ptr<quadrille::PreparedRun> vtkQuadRemesh::MakeRun(quadrille::Block&
     {
       throw quadrille::Underway();
     }
+    this->WasInBackground = true;
     return this->TakeFromBackground();
   }
+  this->WasInBackground = false;
   this->LeaveBackground(); // of other settings
   std::unique_ptr<quadrille::PreparedRun> run = this->PrepareRun(block);
   if (!this->GoesToBackground(block))

@@ -13,8 +13,10 @@
 #include "vtkSMInputProperty.h"
 #include "vtkSMParaViewPipelineController.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMProxyManager.h"
 #include "vtkSMSession.h"
 #include "vtkSMSessionProxyManager.h"
+#include "vtkSMUndoStackBuilder.h"
 #include "vtkSmartPointer.h"
 
 #include <cstring>
@@ -90,6 +92,32 @@ const char* colouringArray(vtkPVXMLElement* hints, int port)
   }
   return nullptr;
 }
+
+/// What is changed meanwhile is not on the stack of undos, where there is one.
+class NoStepOfTheUser
+{
+public:
+  NoStepOfTheUser()
+  {
+    if (this->Builder)
+    {
+      this->Builder->SetIgnoreAllChanges(true);
+    }
+  }
+  ~NoStepOfTheUser()
+  {
+    if (this->Builder)
+    {
+      this->Builder->SetIgnoreAllChanges(this->Before);
+    }
+  }
+  NoStepOfTheUser(const NoStepOfTheUser&) = delete;
+  NoStepOfTheUser& operator=(const NoStepOfTheUser&) = delete;
+
+private:
+  vtkSMUndoStackBuilder* Builder = vtkSMProxyManager::GetProxyManager()->GetUndoStackBuilder();
+  bool Before = this->Builder && this->Builder->GetIgnoreAllChanges();
+};
 
 /// When there are cells with the array: ParaView chooses colours when a representation is made, and not again; set
 /// before, it warns that the array has no range, and shows a legend of nothing.
@@ -261,6 +289,7 @@ void vtkSMQuadrilleSourceProxy::PostUpdateData(bool usingCache)
     const vtkSMPropertyHelper colours(consumer, "ColorArrayName", true);
     if (colours.GetNumberOfElements() < 5 || std::strlen(colours.GetAsString(4)) == 0)
     {
+      const NoStepOfTheUser notUndone;
       colour(consumer, array, this->GetSessionProxyManager());
     }
   }

@@ -3,7 +3,7 @@
 #include "Prepare/Sheets.h"
 
 #include "Base/Angles.h"
-#include "Base/Error.h"
+#include "Base/InvalidPolygon.h"
 #include "Base/LargeArray.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
@@ -273,12 +273,13 @@ OrientedSets joinAcrossPlainEdges(const PreparedSurface& surface)
     if (g != kInvalidIndex && h < g &&
       !sets.join(Mesh::face(h), Mesh::face(g), mesh.origin[h] == mesh.origin[g]))
     {
-      throw InvalidInput(
+      const Index polygon = surface.sourcePolygon[Mesh::face(h)];
+      throw InvalidPolygon(
         "cut the surface open, or remove the polygons that close its twisted loop: "
         "it is not orientable (like a Moebius strip), as polygon " +
-        std::to_string(surface.sourcePolygon[Mesh::face(h)]) + " near " +
-        placeText(mesh.position[mesh.origin[h]]) +
-        " cannot agree with all its neighbours about which side is outside.");
+          std::to_string(polygon) + " near " + placeText(mesh.position[mesh.origin[h]]) +
+          " cannot agree with all its neighbours about which side is outside.",
+        polygon);
     }
   }
   return sets;

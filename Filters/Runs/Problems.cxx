@@ -59,6 +59,22 @@ void addSurface(const Problems& problems, vtkPolyData* data)
 
 } // namespace
 
+Vector3 middleOf(vtkPolyData* surface, vtkIdType cell)
+{
+  vtkNew<vtkPolyData> same; // what says where cells begin is not made in the user's
+  same->ShallowCopy(surface);
+  vtkNew<vtkIdList> points;
+  same->GetCellPoints(cell, points);
+  Vector3 sum = Vector3::Zero();
+  for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+  {
+    Vector3 point;
+    same->GetPoint(points->GetId(i), point.data());
+    sum += point;
+  }
+  return sum / static_cast<double>(points->GetNumberOfIds());
+}
+
 vtkSmartPointer<vtkPolyData> writeProblems(const Problems& problems)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();

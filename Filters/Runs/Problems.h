@@ -26,6 +26,9 @@ struct Problems
   std::vector<std::string> words; ///< what is told of them
 };
 
+/// The mean of the points of a cell.
+Vector3 middleOf(vtkPolyData* surface, vtkIdType cell);
+
 /// A vertex for each place and the polygons of the surface, or where it has none its lines and vertices, with the cell
 /// array Problem (0 without quads, 1 fails here, 2 inverted) and the field data Words. Empty where there is no problem.
 vtkSmartPointer<vtkPolyData> writeProblems(const Problems& problems);

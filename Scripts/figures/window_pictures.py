@@ -4,9 +4,10 @@
 
   window_pictures.py XVFB PARAVIEW OPENBOX FOLDER
 
-FOLDER gets window-quads.png, window-panel.png and window-irregular.png of Data/part.ply, window-failure.png of a
-Moebius strip, and window-valence.png and window-stroke.png of Data/beast.ply. It takes the environment of the tests of
-the plugin (PYTHONPATH, QUADRILLE_PLUGIN, QUADRILLE_DATA, QUADRILLE_ARTIFACTS); needs Debian's openbox and xdotool.
+FOLDER gets window-tutorial.png, window-quads.png, window-panel.png and window-irregular.png of Data/part.ply,
+window-failure.png of a Moebius strip, and window-valence.png and window-stroke.png of Data/beast.ply. It takes the
+environment of the tests of the plugin (PYTHONPATH, QUADRILLE_PLUGIN, QUADRILLE_DATA, QUADRILLE_ARTIFACTS); needs
+Debian's openbox and xdotool.
 """
 import argparse
 import math
@@ -19,8 +20,8 @@ import time
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "Testing" / "Plugin"))
+import test_first_minutes  # noqa: E402
 import test_gui  # noqa: E402
-import test_places  # noqa: E402
 
 DATA = pathlib.Path(os.environ["QUADRILLE_DATA"])
 PANELS = 296, 640      # where the panels end and the view begins
@@ -51,7 +52,7 @@ def write_moebius(path, around=80, across=8):
     return path
 
 
-class Window(test_places.Session):
+class Window(test_first_minutes.Session):
     """With pictures of parts of it."""
 
     def picture(self, path, box, half):
@@ -74,6 +75,16 @@ class Window(test_places.Session):
 
     def whole(self):
         return 0, 0, 1880, HEIGHT
+
+
+def tutorial(window, folder):
+    window.help(0)
+    window.find_origin()
+    window.find_tools()
+    window.take("Remesh")
+    window.wait_for_quads()
+    window.xdotool("mousemove", *window.middle())
+    window.picture(folder / "window-tutorial.png", (0, 140, 1880, HEIGHT), True)
 
 
 def part(window, folder):
@@ -119,12 +130,13 @@ def main():
     for program in ("xvfb", "paraview", "openbox"):
         parser.add_argument(program)
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--only", nargs="*", default=["part", "failure", "constraints"])
+    parser.add_argument("--only", nargs="*", default=["tutorial", "part", "failure", "constraints"])
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         moebius = write_moebius(folder / "moebius.obj")
-        for make, surface in ((part, DATA / "part.ply"), (failure, moebius), (constraints, DATA / "beast.ply")):
+        for make, surface in ((tutorial, None), (part, DATA / "part.ply"), (failure, moebius),
+                              (constraints, DATA / "beast.ply")):
             if make.__name__ not in options.only:
                 continue
             place = folder / make.__name__

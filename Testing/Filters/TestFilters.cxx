@@ -3,6 +3,7 @@
 #include "Convert/PolyData.h"
 #include "TestSurfaces.h"
 
+#include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -13,8 +14,10 @@
 #include <vtkIntArray.h>
 #include <vtkIntegerGridMap.h>
 #include <vtkLogger.h>
+#include <vtkMath.h>
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkQuadRemesh.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
@@ -25,6 +28,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -447,6 +451,54 @@ TEST(QuadRemeshFailure, ShowsAnInputWithoutPolygons)
   vtkDataArray* kinds = problems->GetCellData()->GetArray("Problem");
   EXPECT_EQ(kinds->GetNumberOfTuples(), 3);
   EXPECT_EQ(kinds->GetRange()[1], 0);
+}
+
+/// A band with half a twist.
+vtkSmartPointer<vtkPolyData> moebius(vtkIdType around)
+{
+  constexpr double halfWidth = 0.3;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> polygons;
+  for (vtkIdType i = 0; i < around; ++i)
+  {
+    const double angle = 2 * vtkMath::Pi() * static_cast<double>(i) / static_cast<double>(around);
+    for (const double s : { -halfWidth, halfWidth })
+    {
+      const double r = 1 + s * std::cos(angle / 2);
+      points->InsertNextPoint(r * std::cos(angle), r * std::sin(angle), s * std::sin(angle / 2));
+    }
+    const bool isLast = i + 1 == around;
+    polygons->InsertNextCell({ 2 * i, 2 * i + 1, isLast ? 0 : 2 * i + 3, isLast ? 1 : 2 * i + 2 });
+  }
+  auto band = vtkSmartPointer<vtkPolyData>::New();
+  band->SetPoints(points);
+  band->SetPolys(polygons);
+  return band;
+}
+
+TEST(QuadRemeshFailure, MarksThePolygonWhereABandIsTwisted)
+{
+  const vtkSmartPointer<vtkPolyData> input = moebius(12);
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, input, 40);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  EXPECT_EQ(countProblems(filter)[0], input->GetNumberOfCells());
+  ASSERT_EQ(countProblems(filter)[1], 1);
+  auto* problems = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(8));
+  const double* mark = problems->GetPoint(problems->GetCell(0)->GetPointId(0));
+  double least = 1;
+  for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
+  {
+    double middle[3] = { 0, 0, 0 };
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      vtkMath::Add(middle, input->GetPoint(input->GetCell(cell)->GetPointId(corner)), middle);
+    }
+    vtkMath::MultiplyScalar(middle, 0.25);
+    least = std::min(least, vtkMath::Distance2BetweenPoints(mark, middle));
+  }
+  EXPECT_NEAR(least, 0, 1e-20); // rounding of sums of four
 }
 
 TEST(QuadRemeshFailure, ShowsTheInputWhereNothingElseIs)

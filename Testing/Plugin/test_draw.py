@@ -15,8 +15,10 @@ Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox a
 """
 import argparse
 import math
+import os
 import pathlib
 import random
+import subprocess
 import sys
 import tempfile
 import time
@@ -47,9 +49,9 @@ class Session(test_places.Session):
     def find_tools(self):
         """The buttons of the tool bar, which has a row of its own above the panels: icons with gaps between them."""
         rows = self.rows()
-        top, bottom, empty = 152, 174, 3 * (WIDTH - 60)
+        top, bottom, empty = 152, 174, 3 * 13
         icons, start, last = [], None, 0
-        for x in range(WIDTH // 2):
+        for x in range(13, WIDTH // 4):
             if any(rows[y][3 * x:3 * x + 3] != rows[y][empty:empty + 3] for y in range(top, bottom)):
                 start, last = x if start is None else start, x
             elif start is not None and x - last > 3:
@@ -485,6 +487,33 @@ def check_stop(session, chance):
     return bad
 
 
+def save_dialogs(session):
+    """What Ctrl+S opens, closed again: the number of its windows."""
+    session.xdotool("mousemove", *session.middle(), "key", "ctrl+s", "sleep", 1)
+    found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "Save File"], capture_output=True,
+                           env=dict(os.environ, DISPLAY=session.display), check=False).stdout.split()
+    if found:
+        session.xdotool("key", "Escape", "sleep", 0.5)
+    return len(found)
+
+
+def check_save(session, chance):
+    """While quads are made those from before cannot be saved by Save Data; afterwards the new ones can."""
+    session.ask("clear(); quads().NumberOfQuads = 150000; simple.Render(view)", seconds=120)
+    session.look(270, 20)
+    session.take("Valence")
+    session.xdotool("mousemove", *session.screen(session.places(chance, 1)[0][0]), "sleep", 0.2, "click", 1)
+    session.wait_until("not is_made()")
+    meanwhile = save_dialogs(session)
+    underway = not session.value("is_made()")
+    session.settle()
+    afterwards = save_dialogs(session)
+    session.xdotool("key", "Escape")
+    session.ask("clear(); quads().NumberOfQuads = 5000; simple.Render(view)")
+    print(f"Save Data while quads are made ({underway}): {meanwhile} dialogs, afterwards {afterwards}")
+    return not (underway and meanwhile == 0 and afterwards == 1)
+
+
 def check_delete(session, chance):
     """A Quad Remesh that is deleted while its quads are made is gone, and one undo brings it back."""
     session.ask("clear(); quads().NumberOfQuads = 150000; simple.Render(view)", seconds=120)
@@ -573,7 +602,8 @@ def check_trace(folder, options, chance):
 #: Each with a session, random choices and a number of places.
 CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _: check_camera(s, c),
           "undo": lambda s, c, _: check_undo(s, c), "ball": lambda s, c, _: check_ball(s, c),
-          "stop": lambda s, c, _: check_stop(s, c), "handles": check_handles,
+          "stop": lambda s, c, _: check_stop(s, c), "save": lambda s, c, _: check_save(s, c),
+          "handles": check_handles,
           "delete": lambda s, c, _: check_delete(s, c), "close": lambda s, c, _: check_close(s)}
 
 

@@ -36,6 +36,7 @@ class Session(count_actions.Window):
 
     script = "places_script.py"
     surface = SURFACE
+    size = 1880, 1000  # of the window; with room for its frame on the screen
     pvserver = ()  # what starts a server that the window is connected to; empty: none
 
     def __init__(self, folder, programs):
@@ -60,9 +61,8 @@ class Session(count_actions.Window):
             private_display.stop(process)
 
     def start(self):
-        """A window with room for its frame on the screen."""
         self.ask("pass", seconds=180)
-        self.resize(1880, 1000)
+        self.resize(*self.size)
         time.sleep(2)
         self.find_origin()
 

@@ -1,12 +1,17 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Words to the user at the lower end of ParaView's window.
+/// Words to the user at the right of the tool bar: ParaView's status bar has room for a third of a sentence.
 #pragma once
 
 #include <QString>
 
+class QToolBar;
+
 namespace quadrille
 {
+
+/// Makes room for them behind what the tool bar has.
+void addRoomForWords(QToolBar* bar);
 
 /// Shows a word for half a minute.
 void say(const QString& text);
