@@ -19,6 +19,7 @@
 #include "Pipeline/Strategies.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -260,17 +261,13 @@ void takeBefore(const History& history, Settled& settled, SizedSurface& sized, R
   result.reused = sized.reused;
 }
 
-/// The surface in parts: whether they have quads, which are those of the result then, and otherwise why not. history:
-/// of the whole.
-bool remeshDivided(const History& history, Settled& settled, SizedSurface& sized,
-  const Asked& asked, JoinedRuns& joined, RemeshResult& result, Failure& failure)
+/// The surface in parts: whether they have quads, which are those of the result then, and otherwise why not. failed:
+/// see divide; history: of the whole.
+bool remeshDivided(const std::vector<Index>& failed, const History& history, Settled& settled,
+  SizedSurface& sized, const Asked& asked, JoinedRuns& joined, RemeshResult& result,
+  Failure& failure)
 {
   const RemeshOptions& options = asked.options;
-  std::vector<Index> failed;
-  if (history.attempts() > 0)
-  {
-    failed = failedVertices(history.last(), sized.surface->mesh);
-  }
   countTry(Try::Components);
   failure = remeshParts(
     divide(sized, failed, options.threads), boundOf(sized).work, settled, asked, joined);
@@ -343,17 +340,27 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
   return true;
 }
 
-/// Where it is known which faces have no map: the rest, and these filled beside it.
+/// Where it is known which faces have no map: the rest, and these filled beside it; of several components as if those
+/// with such faces had failed, so that the others, and each rest, are what they are where it is not known.
 bool remeshBesideKnown(
   Settled& settled, SizedSurface& sized, const Asked& asked, RemeshResult& result)
 {
+  const Mesh& mesh = sized.surface->mesh;
   const FailedFaces known = facesWithoutMap(*sized.surface);
   if (known.empty() || !mayCutFaces(*sized.surface, asked.options))
   {
     return false;
   }
-  countTry(Try::FilledFaces);
   Failure failure;
+  if (sized.surface->components > 1)
+  {
+    std::vector<Index> failed;
+    std::transform(known.faces.begin(), known.faces.end(), std::back_inserter(failed),
+      [&](Index f) { return mesh.origin[3 * f]; });
+    JoinedRuns joined(sized);
+    return remeshDivided(failed, {}, settled, sized, asked, joined, result, failure);
+  }
+  countTry(Try::FilledFaces);
   const bool isFilled = remeshCut(
     cutFaces(sized, known, asked.options.threads), {}, settled, sized, asked, result, failure);
   countTryLed(Try::FilledFaces, isFilled ? 1 : 0);
@@ -396,7 +403,7 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   if (!settled.status.ok())
   {
     const bool hasQuads = options.leavesOutFailed && sized.surface->components > 1 &&
-      remeshDivided({}, settled, sized, asked, joined, result, failure);
+      remeshDivided({}, {}, settled, sized, asked, joined, result, failure);
     result.status = hasQuads ? result.status : settled.status;
     return;
   }
@@ -413,7 +420,8 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   if (failed)
   {
     history.packMaps(sized.surface->mesh);
-    if (isInParts ? remeshDivided(history, settled, sized, asked, joined, result, failure)
+    if (isInParts ? remeshDivided(failedVertices(history.last(), sized.surface->mesh), history,
+                      settled, sized, asked, joined, result, failure)
                   : remeshBesideFaces(history, settled, sized, asked, result, failure))
     {
       return;
