@@ -504,20 +504,30 @@ double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed)
   return out / all;
 }
 
-FailedFaces facesWithoutMap(const PreparedSurface& surface)
+FailedFaces facesAt(const std::vector<Vector3>& places, const Mesh& mesh)
 {
   FailedFaces faces;
-  if (surface.withoutMap.empty())
+  if (places.empty())
   {
     return faces;
   }
-  const NearestTriangle triangles(trianglesOf(surface.mesh));
-  for (const Vector3& place : surface.withoutMap)
+  const NearestTriangle triangles(trianglesOf(mesh));
+  for (const Vector3& place : places)
   {
     faces.faces.push_back(triangles.at(place)->triangle);
   }
   sortUnique(faces.faces);
   return faces;
+}
+
+std::vector<std::uint8_t> isInFaces(const Mesh& mesh, const FailedFaces& faces)
+{
+  const std::vector<Index> labels = faceLabels(mesh);
+  const std::vector<std::uint8_t> isOne = failedLabels(mesh, labels, faces);
+  std::vector<std::uint8_t> isIn(mesh.faceCount());
+  std::transform(
+    labels.begin(), labels.end(), isIn.begin(), [&](Index label) { return isOne[label]; });
+  return isIn;
 }
 
 bool addFacesAt(const std::vector<Vector3>& places, const SizedSurface& whole, FailedFaces& failed)

@@ -39,8 +39,10 @@ bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history);
 /// The area of the faces in which a map has failed over that of the surface.
 double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed);
-/// The faces that have no map from the beginning, see SurfaceRequests::withoutMap.
-FailedFaces facesWithoutMap(const PreparedSurface& surface);
+/// The faces that the places lie in, as SurfaceRequests::withoutMap.
+FailedFaces facesAt(const std::vector<Vector3>& places, const Mesh& mesh);
+/// #F: whether a triangle belongs to one of the faces.
+std::vector<std::uint8_t> isInFaces(const Mesh& mesh, const FailedFaces& faces);
 /// Adds those at places, as where quads do not fit; whether there are any that had not failed.
 bool addFacesAt(const std::vector<Vector3>& places, const SizedSurface& whole, FailedFaces& failed);
 /// What is asked for on the faces, their boundary included, is not asked of the rest, but for vertices on features that

@@ -346,7 +346,7 @@ bool remeshBesideKnown(
   Settled& settled, SizedSurface& sized, const Asked& asked, RemeshResult& result)
 {
   const Mesh& mesh = sized.surface->mesh;
-  const FailedFaces known = facesWithoutMap(*sized.surface);
+  const FailedFaces known = facesAt(sized.surface->withoutMap, mesh);
   if (known.empty() || !mayCutFaces(*sized.surface, asked.options))
   {
     return false;

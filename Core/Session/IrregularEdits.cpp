@@ -8,7 +8,7 @@
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 #include "Mesh/Distance.h"
-#include "Mesh/NearestTriangle.h"
+#include "Pipeline/FaceDivision.h"
 #include "Session/IrregularMatch.h"
 
 #include <algorithm>
@@ -331,33 +331,12 @@ FixedPlaces fixedPlaces(
     return fixed;
   }
   const Mesh& mesh = made.surface.mesh;
-  const NearestTriangle triangles(trianglesOf(mesh));
-  std::vector<std::uint8_t> isWithout(mesh.faceCount(), 0);
-  std::vector<Index> next;
-  const auto add = [&](Index f)
+  std::vector<Vector3> places = insideOfFaces;
+  for (Vector3& place : places)
   {
-    if (isWithout[f] == 0)
-    {
-      isWithout[f] = 1;
-      next.push_back(f);
-    }
-  };
-  for (const Vector3& place : insideOfFaces)
-  {
-    add(triangles.at(made.frame == nullptr ? place : made.frame->fromUser(place))->triangle);
-    while (!next.empty())
-    {
-      const Index f = next.back();
-      next.pop_back();
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        if (!mesh.isConstrained(h))
-        {
-          add(Mesh::face(mesh.twin[h]));
-        }
-      }
-    }
+    place = made.frame == nullptr ? place : made.frame->fromUser(place);
   }
+  const std::vector<std::uint8_t> isWithout = isInFaces(mesh, facesAt(places, mesh));
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
     if (isWithout[f] != 0)

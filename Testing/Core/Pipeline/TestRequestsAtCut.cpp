@@ -156,7 +156,7 @@ TEST_F(RequestsAtCut, PlacesInsideLeadToTheFaces)
   ASSERT_EQ(made.inside.size(), 1U);
   EXPECT_LT(made.inside.front().x(), 4);
   surface_.withoutMap = made.inside;
-  const FailedFaces again = facesWithoutMap(surface_);
+  const FailedFaces again = facesAt(surface_.withoutMap, surface_.mesh);
   ASSERT_EQ(again.faces.size(), 1U);
   EXPECT_LT(surface_.mesh.middleOfFace(again.faces.front()).x(), 4);
   EXPECT_TRUE(restOf(cut()).withoutMap.empty());
