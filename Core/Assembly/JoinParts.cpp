@@ -408,9 +408,8 @@ JoinedParts joinParts(std::vector<SurfaceInput> parts, const PartContacts& conta
     "at least two parts are needed to join them, with the contacts between them");
   JoinedParts joined;
   SurfaceInput& all = joined.input;
-  all.patchesYield = true;
-  all.featuresYield = std::all_of(
-    parts.begin(), parts.end(), [](const SurfaceInput& part) { return part.featuresYield; });
+  all.isDesigned = std::all_of(
+    parts.begin(), parts.end(), [](const SurfaceInput& part) { return part.isDesigned; });
   const bool features = anyHas(parts, &SurfaceInput::featureEdges);
   const bool guides = anyHas(parts, &SurfaceInput::guideDirections);
   const bool weights = anyHas(parts, &SurfaceInput::guideWeights);

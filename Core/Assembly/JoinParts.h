@@ -48,7 +48,7 @@ struct PartContacts
 /// Throws InvalidInput for more than 2^32 - 2 points in all. Corners must be within the points of their part.
 PartContacts findContacts(const std::vector<const SurfaceInput*>& parts);
 
-/// Parts as one surface. Features are the edges between two of them, too; they yield (SurfaceInput::patchesYield).
+/// Parts as one surface. Features are the edges between two of them, too.
 struct JoinedParts
 {
   SurfaceInput input;                  ///< polygons part after part

@@ -315,8 +315,7 @@ private:
       copy(joint_.guideOrders, input.guideOrders);
       copy(joint_.curvatures, input.curvatures);
     }
-    input.patchesYield = joint_.patchesYield;
-    input.featuresYield = joint_.featuresYield;
+    input.isDesigned = joint_.isDesigned;
     input.curves = joint_.curves;
   }
 

@@ -16,8 +16,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
 #include <utility>
 
 namespace quadrille
@@ -116,148 +114,6 @@ private:
   const Mesh& mesh_;
   const QuadMesh& quads_;
   const FaceParts& faceParts_;
-};
-
-/// Where quads do not follow the border between two parts, it becomes a staircase between their centres. Quads that
-/// stick out of it, or lie alone beyond it, go to the part round them, as long as theirs has others.
-class EvenBorders
-{
-public:
-  EvenBorders(CutSource& source, const FaceParts& faceParts)
-    : source_(source), faceParts_(faceParts), places_(source, faceParts),
-      topology_(analyzeQuads(source.quads.quads, source.quads.points.size()))
-  {
-  }
-
-  void even()
-  {
-    nameOwners();
-    findLines();
-    bool any = true;
-    for (int sweep = 0; any && sweep < kMostSweeps; ++sweep)
-    {
-      poll();
-      any = false;
-      for (Index q = 0; q < label_.size(); ++q)
-      {
-        any = evenQuad(q) || any;
-      }
-    }
-  }
-
-private:
-  static constexpr int kMostSweeps = 20;
-  using Owners = std::vector<Index>; ///< parts, ascending
-
-  Owners ownersOf(Index quad) const
-  {
-    Owners owners;
-    faceParts_.forEachOwner(source_.quads.quadSourceFace[quad],
-      [&](const FaceParts::Owner& owner) { owners.push_back(owner.part); });
-    std::sort(owners.begin(), owners.end());
-    return owners;
-  }
-
-  void nameOwners()
-  {
-    std::map<Owners, Index> names;
-    for (Index q = 0; q < source_.quads.quads.size(); ++q)
-    {
-      const Owners owners = ownersOf(q);
-      const Index label = names.emplace(owners, static_cast<Index>(names.size())).first->second;
-      label_.push_back(label);
-      if (label == owners_.size())
-      {
-        owners_.push_back(owners);
-        count_.push_back(0);
-      }
-      ++count_[label];
-    }
-  }
-
-  /// Features are borders that quads follow.
-  void findLines()
-  {
-    std::set<std::pair<Index, Index>> lines;
-    for (const QuadLine& line : source_.quads.lines)
-    {
-      lines.emplace(std::min(line.a, line.b), std::max(line.a, line.b));
-    }
-    for (Index h = 0; h < topology_.twin.size(); ++h)
-    {
-      const auto& quad = source_.quads.quads[h / 4];
-      const Index a = quad[h % 4], b = quad[(h + 1) % 4];
-      isLine_.push_back(lines.count({ std::min(a, b), std::max(a, b) }) != 0 ? 1 : 0);
-    }
-  }
-
-  bool evenQuad(Index q)
-  {
-    // By label, how many sides; the side by which one comes to it.
-    std::map<Index, std::pair<int, Index>> beside;
-    int own = 0;
-    for (Index h = 4 * q; h < 4 * q + 4; ++h)
-    {
-      const Index g = topology_.twin[h];
-      if (g == kInvalidIndex || isLine_[h] != 0)
-      {
-        continue;
-      }
-      const Index label = label_[g / 4];
-      own += label == label_[q] ? 1 : 0;
-      ++beside.emplace(label, std::make_pair(0, h)).first->second.first;
-    }
-    for (const auto& [label, sides] : beside)
-    {
-      const bool isMost = sides.first >= 3 || (own == 0 && sides.first == 2);
-      if (label != label_[q] && isMost && own < 2 && count_[label_[q]] > 1)
-      {
-        return give(q, label, sides.second);
-      }
-    }
-    return false;
-  }
-
-  /// The quad is on its common edge with the other one then, if there is a face of these parts.
-  bool give(Index q, Index label, Index side)
-  {
-    const Index point = source_.quads.quads[q][side % 4];
-    const Index near = source_.quads.quadSourceFace[topology_.twin[side] / 4];
-    const PartPlaces::Place place = places_.in(owners_[label].front(), point, near);
-    if (!isOf(place.face, label))
-    {
-      return false;
-    }
-    source_.quads.quadSourceFace[q] = place.face;
-    source_.quads.quadSourceWeights[q] = place.weights;
-    --count_[label_[q]];
-    label_[q] = label;
-    ++count_[label];
-    return true;
-  }
-
-  bool isOf(Index face, Index label) const
-  {
-    const Owners& owners = owners_[label];
-    std::size_t found = 0;
-    bool all = true;
-    faceParts_.forEachOwner(face,
-      [&](const FaceParts::Owner& owner)
-      {
-        ++found;
-        all = all && std::binary_search(owners.begin(), owners.end(), owner.part);
-      });
-    return all && found == owners.size();
-  }
-
-  CutSource& source_;
-  const FaceParts& faceParts_;
-  PartPlaces places_;
-  QuadTopology topology_;
-  std::vector<Index> label_;         ///< per quad
-  std::vector<Owners> owners_;       ///< per label
-  std::vector<std::size_t> count_;   ///< per label, quads
-  std::vector<std::uint8_t> isLine_; ///< per half-edge of the quads
 };
 
 /// Whether the polygon under a face of the part has its corners the other way round; 0 where repair has changed them.
@@ -535,7 +391,6 @@ std::vector<PartResult> cutUp(CutSource source)
   const RemeshResult& result = source.result;
   const JoinedParts& joined = source.joined;
   const FaceParts faceParts(source);
-  EvenBorders(source, faceParts).even();
   std::vector<std::vector<Index>> quads(joined.parts.size());
   for (std::size_t q = 0; q < source.quads.quads.size(); ++q)
   {

@@ -20,8 +20,6 @@ enum class Try : std::uint8_t
   KeptDefects,
   MoreQuads,
   Counterparts,
-  FewerFeatures,
-  CoarserFeatures,
   FewerDetails,
   Components,
   FilledFaces,

@@ -30,14 +30,6 @@ FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double smallest, int th
 bool hasDetectedFeature(const Mesh& mesh);
 /// Whether h is that half-edge of a feature that stands for it, and nobody asked for the feature (kRequestedFeature).
 bool isDetectedFeature(const Mesh& mesh, Index h);
-/// The same of a feature that may be given up for the sake of a map: a detected one, or one that was asked for and
-/// yields (kYieldingFeature).
-bool mayBeGivenUp(const Mesh& mesh, Index h);
-/// The half-edges that stand for features of which `isOne` says so and that come closer than `radius` to one of the
-/// points. Throws InvalidInput when radius is not positive.
-std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& points, double radius,
-  bool (*isOne)(const Mesh&, Index));
-
 /// What became of a place where a user wants no feature.
 struct ClearedFeature
 {

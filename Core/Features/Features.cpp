@@ -241,8 +241,7 @@ FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision)
   return report;
 }
 
-void markFeaturesByPatch(
-  PreparedSurface& surface, const std::vector<std::int64_t>& patchIds, bool yields)
+void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_t>& patchIds)
 {
   Mesh& mesh = surface.mesh;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
@@ -255,11 +254,9 @@ void markFeaturesByPatch(
     {
       continue;
     }
-    const bool isAsked = ((mesh.flags[h] | mesh.flags[g]) & kRequestedFeature) != 0;
-    const std::uint8_t yielding = yields && !isAsked ? kYieldingFeature : 0;
     for (const Index side : { h, g })
     {
-      mesh.flags.edit()[side] |= kFeatureEdge | kRequestedFeature | yielding;
+      mesh.flags.edit()[side] |= kFeatureEdge | kRequestedFeature;
     }
   }
 }

@@ -24,10 +24,8 @@ FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision 
 std::vector<Vector3> normalsBeside(
   const Mesh& mesh, const std::vector<Index>& halfEdges, int threads, double precision = 0);
 
-/// Flags, on both half-edges, the edges between faces whose source polygons have different patch ids. yields: those
-/// that nothing else has asked for may be given up (kYieldingFeature).
-void markFeaturesByPatch(
-  PreparedSurface& surface, const std::vector<std::int64_t>& patchIds, bool yields = false);
+/// Flags, on both half-edges, the edges between faces whose source polygons have different patch ids.
+void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_t>& patchIds);
 
 /// Copies each flag to the twin: an edge is a feature when either of its polygons says so.
 void makeFlagsSymmetric(Mesh& mesh);

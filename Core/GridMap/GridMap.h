@@ -108,9 +108,6 @@ struct GridMapResult : MapWork
   FailedFaces failedFaces;     ///< coarse faces where that was; empty where it was not in faces
   std::vector<Index>
     failedIn; ///< a coarse vertex of each component that has no map, however it is tried
-  /// Faces that no map with the field gives any area, as the arcs of features round patches leave none; not from the
-  /// methods that round.
-  std::size_t collapsedFaces = 0;
   std::vector<CurveOutcome> curves; ///< what became of GridMapOptions::curves
   /// Coarse vertices round which the triangulation lacks freedom for all curves, where some were left out.
   std::vector<Index> curvesFailedAt;

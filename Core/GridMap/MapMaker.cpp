@@ -444,7 +444,6 @@ private:
     {
       if (!component.hasIntegers)
       {
-        result_.collapsedFaces += seamless.collapsed;
         component.fail(seamless.status, std::move(seamless.uv),
           join(cornerVertices(part.mesh, seamless.inverted), seamless.failedAt),
           std::move(seamless.failedFaces));

@@ -60,7 +60,6 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
     "features and irregular vertices leave no area to " +
       std::to_string(collapsed.notPositive.size()) + " triangles",
     defects, result);
-  result.collapsed = collapsed.notPositive.size();
   return true;
 }
 

@@ -38,9 +38,6 @@ struct SeamlessResult
   std::vector<Index>
     failedAt;              ///< vertices round which the triangulation, or the field, leaves no map
   FailedFaces failedFaces; ///< where these defects are
-  /// Of these faces, that no map with this field gives any area: then they are those of the start, as nothing was
-  /// untangled.
-  std::size_t collapsed = 0;
   int newtonSteps = 0;
   bool startedFromPrevious = false;
 };

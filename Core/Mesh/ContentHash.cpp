@@ -87,10 +87,10 @@ std::uint64_t contentHash(const SurfaceInput& input, int threads)
 std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& input, int threads)
 {
   // By name, so that an array that is new has to be put on one side or the other here.
-  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, patchesYield,
-    featuresYield, detectedFeatures, guideDirections, guideWeights, guideOrders, targetValences,
-    sizing, sizingOrders, curvatures, drawn, curves, regularElsewhere, held, regularOnFeatures,
-    withoutMap, seams, straight, faceOrder, precision] = input;
+  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, isDesigned,
+    detectedFeatures, guideDirections, guideWeights, guideOrders, targetValences, sizing,
+    sizingOrders, curvatures, drawn, curves, regularElsewhere, held, regularOnFeatures, withoutMap,
+    seams, straight, faceOrder, precision] = input;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
@@ -113,8 +113,7 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
   hash = mix(hash, geometry.polygonPoints);
   hash = mix(hash, hashVector(featureEdges, threads));
   hash = mix(hash, hashVector(patchIds, threads));
-  hash = patchesYield ? mix(hash, 1) : hash;
-  hash = featuresYield ? mix(hash, 2) : hash;
+  hash = isDesigned ? mix(hash, 2) : hash;
   hash = mix(hash, hashVector(detectedFeatures, threads));
   hash = mix(hash, hashVector(sizing, threads));
   hash = curvatures.empty() ? hash : mix(hash, hashVector(curvatures, threads));

@@ -25,8 +25,7 @@ enum HalfEdgeFlag : std::uint8_t
   kRequestedFeature =
     2, ///< the user asked for this feature; without it, the dihedral angle alone did
   kRegionBorder =
-    4, ///< parts guided from free faces on a level of the hierarchy; constrains decimation only
-  kYieldingFeature = 8 ///< asked for, but may be given up where quads cannot follow it
+    4 ///< parts guided from free faces on a level of the hierarchy; constrains decimation only
 };
 
 /// A copy shares all arrays until one of the two changes one: it costs next to nothing.

@@ -36,10 +36,7 @@ struct SurfaceInput
   std::vector<std::uint8_t>
     featureEdges; ///< empty or #P; bit i: edge from corner i to i+1 is a feature
   std::vector<std::int64_t> patchIds; ///< empty or #P; an edge between two values is a feature
-  /// Whether these features may be given up where no quads can follow them (kYieldingFeature).
-  bool patchesYield = false;
-  /// Whether featureEdges are all that a designed body has, of which those may be given up that no quads can follow.
-  bool featuresYield = false;
+  bool isDesigned = false;            ///< featureEdges are all that a designed body has
   /// Empty or #P; bits as in featureEdges: what was found on a finer surface that these polygons stand for. They are
   /// features that nobody asked for, in place of those of PrepareOptions::featureAngle.
   std::vector<std::uint8_t> detectedFeatures;

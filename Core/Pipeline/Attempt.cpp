@@ -155,7 +155,6 @@ void recordCoarse(const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
   if (!map.status.ok())
   {
     made.status = map.status;
-    made.collapsed = map.collapsedFaces > 0;
     made.failedPlaces = positionsOf(levels.coarse.mesh, map.failedAt);
     made.failedAt = onFinest(map.failedAt, levels.coarse);
     made.failedFaces = onFinest(map.failedFaces, levels.coarse);

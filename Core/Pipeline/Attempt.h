@@ -75,7 +75,6 @@ struct MapAttempt
   ResultKey key = 0;
   Status status;                           ///< of the coarse map
   bool hopeless = false;                   ///< no other triangulation can mend it
-  bool collapsed = false;                  ///< arcs of features leave some coarse triangles no area
   std::vector<std::uint8_t> coarseInteger; ///< #V of coarse.mesh, see integerVertices
   std::vector<Index> failedAt;             ///< vertices of the surface, where the status is not ok
   std::vector<Vector3> failedPlaces;       ///< their positions

@@ -38,11 +38,6 @@ constexpr double kSameBoundary = 1e-6;
 /// Quads get so many strips at most.
 constexpr std::size_t kMostStrips = 100;
 
-bool yields(std::uint8_t flags)
-{
-  return (flags & kYieldingFeature) != 0;
-}
-
 std::vector<Index> faceLabels(const Mesh& mesh)
 {
   Mesh opened = mesh;
@@ -469,11 +464,7 @@ private:
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
 {
   const bool hasToFit = !surface.seams.empty() || !surface.straight.empty();
-  // Features that a user marks may be far finer than quads, which only he can know to be meant.
-  const bool isMarked = !surface.facets.isDesigned &&
-    std::any_of(surface.mesh.flags.begin(), surface.mesh.flags.end(),
-      [](std::uint8_t flags) { return (flags & kRequestedFeature) != 0 && !yields(flags); });
-  if (hasToFit || isMarked || options.preview || options.method != MapMethod::ScaleAware)
+  if (hasToFit || options.preview || options.method != MapMethod::ScaleAware)
   {
     return false;
   }
@@ -484,10 +475,7 @@ bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history)
 {
-  const auto hasPatches = [&]
-  { return std::any_of(surface.mesh.flags.begin(), surface.mesh.flags.end(), yields); };
-  return !history.hasResult() && !isTooLarge(history.last()) &&
-    (surface.facets.isDesigned || hasPatches()) && mayCutFaces(surface, options);
+  return !history.hasResult() && !isTooLarge(history.last()) && mayCutFaces(surface, options);
 }
 
 double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed)

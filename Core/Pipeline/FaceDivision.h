@@ -31,10 +31,9 @@ struct CutFaces
 };
 
 /// Whether features cut a surface into several faces, and parts of its boundary have not to fit others, which quads
-/// without a map do not care for, nor are features of a scan marked that never yield.
+/// without a map do not care for.
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options);
-/// Whether attempts on such a surface have no quads yet, and it is designed, or has patches: no feature is given up for
-/// a map there. On others, whose features are those of a scan, features near a failure go first.
+/// Whether attempts on such a surface have no quads yet.
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history);
 /// The area of the faces in which a map has failed over that of the surface.

@@ -59,7 +59,7 @@ FirstLevels makeFirstLevels(
   const QuadSize size{ sized.edgeLength, frame.unit, sized.targetQuads,
     options.maximumNumberOfQuads };
   const Plan plan = firstPlan(run);
-  run.levels.make(withPlan(run.surface, plan, options.threads), levelOptions(run, plan));
+  run.levels.make(withPlan(run.surface, plan), levelOptions(run, plan));
   first.stages.add(run.levels.stages());
   for (const char* stage : { "phase1", "phase2" })
   {

@@ -5,7 +5,6 @@
 #include "Requests/Guides.h"
 
 #include "Base/Lists.h"
-#include "Features/FeatureFilter.h"
 #include "Mesh/Mesh.h"
 
 #include <algorithm>
@@ -71,20 +70,7 @@ std::vector<Index> ringsRound(
   return found;
 }
 
-/// Whether features leave coarse triangles no area, and so many others are inverted that no few vertices will mend it.
-bool isMatterOfFeatures(const AttemptFailure& failure)
-{
-  const std::vector<Vector3>& places = failure.attempt.map->failedPlaces;
-  return leavesNoArea(*failure.attempt.map) &&
-    !featuresNear(failure, dropsAt(failure, places)).empty();
-}
-
 } // namespace
-
-bool leavesNoArea(const MapAttempt& map)
-{
-  return map.collapsed && map.failedAt.size() >= kManyFailed;
-}
 
 std::optional<Plan> moreFreedom(const AttemptFailure& failure)
 {
@@ -104,10 +90,8 @@ std::optional<Plan> moreFreedom(const AttemptFailure& failure)
   {
     return std::nullopt;
   }
-  if (isMatterOfFeatures(failure) ||
-    (failed == 0 &&
-      static_cast<double>(last.map->work) >
-        kCheapFailure * static_cast<double>(history.bound().work)))
+  if (failed == 0 &&
+    static_cast<double>(last.map->work) > kCheapFailure * static_cast<double>(history.bound().work))
   {
     return std::nullopt;
   }
@@ -150,13 +134,6 @@ std::optional<Plan> keptDefects(const AttemptFailure& failure)
   // With defects everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
   if (hasPromised(map.certificate, failure.run.options.method) || atDefects.empty() ||
     atDefects.size() > coarse / 2)
-  {
-    return std::nullopt;
-  }
-  // The last time is left out where features can be given up: what keeping vertices did not mend once is theirs.
-  const bool isLast = times + 1 == failure.bound;
-  const std::vector<Vector3> places = positionsOf(failure.surface->mesh, atDefects);
-  if (isLast && !featuresNear(failure, dropsAt(failure, places)).empty())
   {
     return std::nullopt;
   }

@@ -3,8 +3,6 @@
 #include "Pipeline/PlannedSurface.h"
 
 #include "Base/Lists.h"
-#include "Features/FeatureFilter.h"
-#include "Mesh/ContentHash.h"
 #include "Mesh/FlatSources.h"
 #include "Mesh/Sizing.h"
 
@@ -68,36 +66,27 @@ PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, Resul
   return { std::move(surface), key, key, sizes, key, { vertices, {}, 0 } };
 }
 
-PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan, int threads)
+PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan)
 {
-  if (!plan.sizes && !plan.featuresGivenUp && !plan.counterparts)
+  if (!plan.sizes && !plan.counterparts)
   {
     return surface;
   }
   PreparedSurface planned = *surface;
   Mesh& mesh = planned.mesh;
   KeyMaker key(surface.key);
-  KeyMaker stars(surface.starsKey);
-  if (plan.featuresGivenUp)
-  {
-    unmarkFeatures(mesh, *plan.featuresGivenUp);
-    key.add(*plan.featuresGivenUp);
-    stars.add(*plan.featuresGivenUp);
-    planned.hash = contentHash(mesh, threads);
-  }
   if (plan.counterparts)
   {
     append(planned.valenceRequests, *plan.counterparts);
     sortByVertex(planned.valenceRequests);
   }
-  const ResultKey keyWithoutSizes = key.key();
   if (plan.sizes)
   {
     mesh.sizing = *plan.sizes;
     key.add(*plan.sizes);
   }
-  return { std::make_shared<const PreparedSurface>(std::move(planned)), key.key(), keyWithoutSizes,
-    surface.sizesBefore, stars.key(), surface.own };
+  return { std::make_shared<const PreparedSurface>(std::move(planned)), key.key(), surface.key,
+    surface.sizesBefore, surface.starsKey, surface.own };
 }
 
 } // namespace quadrille

@@ -25,18 +25,13 @@ constexpr std::array<Strategy, 3> kForMaps{ {
   { Try::RoomForCurves, 1, roomForCurves },
   { Try::KeptDefects, 2, keptDefects },
 } };
-constexpr std::array<Strategy, 1> kWithAllFeatures{ {
+constexpr std::array<Strategy, 1> kForRounds{ {
   { Try::Counterparts, 1, withCounterparts },
-} };
-constexpr std::array<Strategy, 2> kForRounds{ {
-  kWithAllFeatures[0],
-  { Try::FewerFeatures, kMostFeatureDrops, fewerFeatures },
 } };
 
 /// Where no round has quads and none of the others is left, or may be tried any more.
-constexpr std::array<Strategy, 2> kLastResort{ {
+constexpr std::array<Strategy, 1> kLastResort{ {
   { Try::MoreQuads, 3, moreQuads },
-  { Try::CoarserFeatures, 2, coarserFeatures },
 } };
 
 /// What is wrong with an attempt, in a few words.
@@ -90,11 +85,10 @@ std::optional<AttemptFailure> failureOfRound(RunContext& run, const History& his
   {
     return std::nullopt;
   }
-  return AttemptFailure{ run, history, attempt,
-    withPlan(run.surface, attempt.plan, run.options.threads),
+  return AttemptFailure{ run, history, attempt, withPlan(run.surface, attempt.plan),
     mapped ? positionsOf(run.surface->mesh, attempt.map->transfer.defectVertices)
            : attempt.map->failedPlaces,
-    !hasQuads, 0 };
+    0 };
 }
 
 } // namespace
@@ -112,8 +106,7 @@ std::optional<Plan> nextMapPlan(RunContext& run, const History& history)
     return std::nullopt;
   }
   const Attempt& attempt = history.last();
-  AttemptFailure failure{ run, history, attempt,
-    withPlan(run.surface, attempt.plan, run.options.threads), {}, true, 0 };
+  AttemptFailure failure{ run, history, attempt, withPlan(run.surface, attempt.plan), {}, 0 };
   return firstOffer(kForMaps, failure);
 }
 
@@ -131,12 +124,6 @@ std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLas
     plan = firstOffer(kForRounds, failure);
   }
   return plan || !isLast || history.hasResult() ? plan : firstOffer(kLastResort, failure);
-}
-
-std::optional<Plan> planBeforeCut(RunContext& run, const History& history)
-{
-  std::optional<AttemptFailure> failure = failureOfRound(run, history);
-  return failure && !history.isSpent() ? firstOffer(kWithAllFeatures, *failure) : std::nullopt;
 }
 
 bool isLastResort(const Plan& plan)

@@ -22,9 +22,6 @@ std::optional<Plan> nextMapPlan(RunContext& run, const History& history);
 /// there are no quads, so that the last resort is tried, too, whatever the work.
 std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLast = true);
 
-/// The same where faces in which a map has failed can be cut out, see FaceDivision.h: what leaves all features.
-std::optional<Plan> planBeforeCut(RunContext& run, const History& history);
-
 /// Whether the plan is one of those that are made where nothing else is left.
 bool isLastResort(const Plan& plan);
 

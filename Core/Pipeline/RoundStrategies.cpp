@@ -4,8 +4,6 @@
 
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
-#include "Features/FeatureFilter.h"
-#include "Features/GivenUpFeatures.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/SmallParts.h"
 #include "Requests/Counterparts.h"
@@ -21,12 +19,6 @@ namespace quadrille
 {
 namespace
 {
-
-/// Features are given up within this part of the edge length the first time, then twice as far each time.
-constexpr double kFirstFeatureDrop = 0.5;
-
-/// Where nothing else has led to quads, features that quads so many times as large cannot resolve go first.
-constexpr double kCoarserFeatures = 4;
 
 /// Edge lengths between irregular vertices that are put beside one.
 constexpr double kSideOfCounterparts = 3;
@@ -56,7 +48,7 @@ std::string nearText(const std::vector<Vector3>& places)
   return " near " + placeText(places.front()) + (places.size() > 1 ? " and other places" : "");
 }
 
-/// With the first levels and number of quads: what was changed was for the sake of features.
+/// With the first levels and number of quads.
 Plan fromTheBeginning(const RunContext& run, Plan plan)
 {
   forget({ Try::MoreFreedom, Try::KeptDefects, Try::RoomForCurves, Try::MoreQuads }, plan);
@@ -64,34 +56,6 @@ Plan fromTheBeginning(const RunContext& run, Plan plan)
   plan.levels = firstLevels(run);
   plan.nextLevels = plan.levels;
   return plan;
-}
-
-void giveUp(const std::vector<Index>& features, Plan& plan)
-{
-  auto all = plan.featuresGivenUp ? std::make_shared<std::vector<Index>>(*plan.featuresGivenUp)
-                                  : std::make_shared<std::vector<Index>>();
-  all->insert(all->end(), features.begin(), features.end());
-  plan.featuresGivenUp = std::move(all);
-}
-
-/// What messages call features that are given up.
-const char* nameOf(const Mesh& mesh, const std::vector<Index>& features)
-{
-  const bool wereAskedFor = std::any_of(features.begin(), features.end(),
-    [&](Index h) { return (mesh.flags[h] & kRequestedFeature) != 0; });
-  return wereAskedFor ? "edges of patches or CAD faces" : "sharp edges";
-}
-
-/// Features that quads so many times as large as they are to be cannot resolve; those that yield count as detected.
-std::vector<Index> unresolved(const RunContext& run, Mesh mesh)
-{
-  for (std::uint8_t& flags : mesh.flags.editAll())
-  {
-    flags &= (flags & kYieldingFeature) != 0 ? static_cast<std::uint8_t>(~kRequestedFeature) : 0xFF;
-  }
-  const std::vector<std::uint8_t> before = mesh.flags;
-  removeUnresolvedFeatures(mesh, kCoarserFeatures * run.edgeLength, run.options.threads);
-  return lostFeatures(mesh, before);
 }
 
 /// As many as go three times round the shortest loop, where details are to be resolved; 0: edges would be too short, or
@@ -115,45 +79,6 @@ bool isTooLarge(const Attempt& attempt)
 {
   return attempt.map->status.code == StatusCode::TooLarge ||
     (attempt.quads && attempt.quads->status.code == StatusCode::TooLarge);
-}
-
-std::vector<FeatureDrop> dropsAt(const AttemptFailure& failure, const std::vector<Vector3>& places)
-{
-  const Plan& plan = failure.attempt.plan;
-  std::vector<FeatureDrop> drops;
-  if (static_cast<std::size_t>(plan.featureDrops) >= kMostFeatureDrops && !failure.withoutQuads)
-  {
-    return drops;
-  }
-  for (const Vector3& place : places)
-  {
-    double radius = kFirstFeatureDrop * failure.run.edgeLength;
-    for (const FeatureDrop& before : plan.dropped)
-    {
-      const double twice = 2 * before.radius;
-      radius = (place - before.place).norm() <= twice ? std::max(radius, twice) : radius;
-    }
-    drops.push_back({ place, radius });
-  }
-  return drops;
-}
-
-std::vector<Index> featuresNear(
-  const AttemptFailure& failure, const std::vector<FeatureDrop>& drops)
-{
-  std::vector<Index> features;
-  std::map<double, std::vector<Vector3>> byRadius;
-  for (const FeatureDrop& drop : drops)
-  {
-    byRadius[drop.radius].push_back(drop.place);
-  }
-  const auto isOne = failure.withoutQuads ? mayBeGivenUp : isDetectedFeature;
-  for (const auto& [radius, places] : byRadius)
-  {
-    append(features, featuresNear(failure.surface->mesh, places, radius, isOne));
-  }
-  sortUnique(features);
-  return features;
 }
 
 std::optional<Plan> moreQuads(const AttemptFailure& failure)
@@ -233,73 +158,6 @@ std::optional<Plan> withCounterparts(const AttemptFailure& failure)
     "; add a vertex of the opposite valence where it may be, to have fewer");
   plan.counterparts = std::make_shared<const std::vector<ValenceRequest>>(std::move(more));
   return plan;
-}
-
-std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
-{
-  Plan plan = newRound(failure.attempt.plan);
-  std::vector<FeatureDrop> drops = dropsAt(failure, failure.places);
-  std::vector<Index> features = featuresNear(failure, drops);
-  const double farthest = failure.surface->boundingBoxDiagonal;
-  while (
-    failure.withoutQuads && features.empty() && !drops.empty() && drops.front().radius < farthest)
-  {
-    for (FeatureDrop& drop : drops)
-    {
-      drop.radius *= 2;
-    }
-    features = featuresNear(failure, drops);
-  }
-  if (isTooLarge(failure.attempt) || features.empty())
-  {
-    return std::nullopt;
-  }
-  ++plan.featureDrops;
-  append(plan.dropped, drops);
-  giveUp(features, plan);
-  plan.notices.push_back(std::to_string(features.size()) + " " +
-    nameOf(failure.surface->mesh, features) + nearText(failure.places) +
-    " leave no room for quads of this edge length and were not used as features; ask for more "
-    "quads for them to be "
-    "followed");
-  return plan;
-}
-
-std::optional<Plan> withCoarserFeatures(const RunContext& run, const Plan& before)
-{
-  const PlannedSurface surface = withPlan(run.surface, before, run.options.threads);
-  const Mesh& mesh = surface->mesh;
-  const std::vector<Index> all =
-    idsWhere(mesh.halfEdgeCount(), [&](Index h) { return mayBeGivenUp(mesh, h); });
-  std::vector<Index> features;
-  const std::vector<Try>& made = before.made;
-  if (std::find(made.begin(), made.end(), Try::CoarserFeatures) == made.end() && !all.empty())
-  {
-    features = unresolved(run, mesh);
-  }
-  features = features.empty() ? all : features;
-  if (features.empty())
-  {
-    return std::nullopt;
-  }
-  Plan plan = fromTheBeginning(run, before);
-  plan.featureDrops = static_cast<int>(kMostFeatureDrops);
-  giveUp(features, plan);
-  plan.notices.push_back(
-    "with all features no attempt has led to quads: " + std::to_string(features.size()) + " of " +
-    std::to_string(all.size()) + " " + nameOf(mesh, features) + " were not used as features" +
-    (features.size() < all.size() ? ", those that much larger quads could not follow" : "") +
-    "; ask for smaller quads, or mark the edges that are to stay");
-  return plan;
-}
-
-std::optional<Plan> coarserFeatures(const AttemptFailure& failure)
-{
-  const std::vector<std::string>& steps = failure.history.steps();
-  const auto times = std::count(steps.begin(), steps.end(), tryRow(Try::CoarserFeatures).name);
-  return static_cast<std::size_t>(times) >= failure.bound || isTooLarge(failure.attempt)
-    ? std::nullopt
-    : withCoarserFeatures(failure.run, failure.attempt.plan);
 }
 
 } // namespace quadrille

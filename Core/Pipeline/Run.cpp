@@ -14,7 +14,6 @@
 #include "Pipeline/History.h"
 #include "Pipeline/JoinedRuns.h"
 #include "Pipeline/Recovery.h"
-#include "Pipeline/Restarts.h"
 #include "Pipeline/RunResult.h"
 #include "Pipeline/Strategies.h"
 
@@ -43,7 +42,7 @@ struct SpareMap
 std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, std::size_t allowance)
 {
   const TryScope tries;
-  const PlannedSurface surface = withPlan(run.surface, plan, run.options.threads);
+  const PlannedSurface surface = withPlan(run.surface, plan);
   const ResultKey key = mapKey(run, surface, plan);
   std::shared_ptr<MapAttempt> map = findMap(run, key, allowance);
   if (map && (!map->status.ok() || map->isCarried || run.options.preview))
@@ -77,7 +76,7 @@ std::string triedText(const Plan& plan, const History& history)
 void makeQuadsOfRound(RunContext& run, History& history)
 {
   const Attempt& best = history.ofRound();
-  const PlannedSurface surface = withPlan(run.surface, best.plan, run.options.threads);
+  const PlannedSurface surface = withPlan(run.surface, best.plan);
   history.addQuads(!history.roundHasMap() ? nullptr
       : run.options.preview               ? makePreview(run, surface, best.plan, *best.map)
                                           : makeQuads(run, surface, best.plan, *best.map));
@@ -102,9 +101,8 @@ void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> 
   {
     const auto next = [&]
     {
-      return isDivided(sized, history) ? std::nullopt
-        : isCutAtFaces(*sized.surface, run.options, history)
-        ? planBeforeCut(run, history)
+      return isDivided(sized, history)
+        ? std::nullopt
         : nextPlan(run, history,
             isLast && !history.hasResult() && !mayCutFaces(*sized.surface, run.options));
     };
@@ -151,29 +149,44 @@ void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> 
   result.attempts.insert(result.attempts.end(), history.steps().begin(), history.steps().end());
 }
 
-/// Rounds, and others where no attempt has quads.
+/// Of all attempts at a surface, before any has failed.
+WorkBound boundOf(const SizedSurface& sized)
+{
+  return workBound(sized.surface->mesh.faceCount(), sized.targetQuads, sized.work);
+}
+
+/// The first attempts. What is left of the bound is for those without details that were left.
+History firstHistory(
+  const Settled& settled, const SizedSurface& sized, const RemeshOptions& options)
+{
+  WorkBound bound = boundOf(sized);
+  if (hasRest(settled, options))
+  {
+    bound.work = bound.work / 3 * 2;
+    bound.attempts = bound.attempts / 3 * 2;
+    bound.attemptsOfLastResort = 0;
+  }
+  return History(bound);
+}
+
+/// Rounds, and others where no attempt has quads: without the details that were left for attempts to resolve.
 History makeAttempts(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
   ResultStore* store, RemeshResult& result)
 {
   History history = firstHistory(settled, sized, options);
-  Plan first = firstPlan(*settled.run);
-  makeRounds(*settled.run, sized, first, !hasRest(settled, options), history, result);
-  const auto beginAgain = [&](std::optional<Restart> again)
+  makeRounds(
+    *settled.run, sized, firstPlan(*settled.run), !hasRest(settled, options), history, result);
+  const bool isOver = history.hasResult() || isLeftToParts(sized, options, history);
+  if (!isOver && simplifyRest(settled, sized, options, store))
   {
-    if (again)
-    {
-      result.tries.addTaken(history.tries());
-      sized.stages.add("retries", history.seconds(), 0, 0);
-      history = std::move(again->history);
-      countTry(again->what, again->isCounted ? 1 : 0);
-      makeRounds(*settled.run, sized, std::move(again->plan), true, history, result);
-      countTryLed(again->what, again->isCounted && history.hasResult() ? 1 : 0);
-    }
-  };
-  const auto isOver = [&] { return history.hasResult() || isLeftToParts(sized, options, history); };
-  if (!isOver())
-  {
-    beginAgain(withoutRest(settled, sized, options, store, first, history));
+    result.tries.addTaken(history.tries());
+    sized.stages.add("retries", history.seconds(), 0, 0);
+    history = History(boundOf(sized), history.work(), history.attempts());
+    Plan plan = firstPlan(*settled.run);
+    plan.step = tryRow(Try::FewerDetails).name;
+    countTry(Try::FewerDetails);
+    makeRounds(*settled.run, sized, std::move(plan), true, history, result);
+    countTryLed(Try::FewerDetails, history.hasResult() ? 1 : 0);
   }
   return history;
 }
@@ -415,8 +428,7 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   RunContext& run = *settled.run;
   run.levels.letGo();
   const bool isInParts = isDivided(sized, history);
-  const bool failed = isInParts ||
-    (!history.hasResult() && !isTooLarge(history.last()) && mayCutFaces(*sized.surface, options));
+  const bool failed = isInParts || isCutAtFaces(*sized.surface, options, history);
   if (failed)
   {
     history.packMaps(sized.surface->mesh);

@@ -14,9 +14,6 @@
 namespace quadrille
 {
 
-/// How often features are given up for quads that are inverted.
-constexpr std::size_t kMostFeatureDrops = 4;
-
 /// What there is to mend: an attempt without quads, or with some that are inverted at folds of its map.
 struct AttemptFailure
 {
@@ -25,7 +22,6 @@ struct AttemptFailure
   const Attempt& attempt;      ///< of the round
   PlannedSurface surface;      ///< by its plan
   std::vector<Vector3> places; ///< where the map or its quads failed
-  bool withoutQuads = true;    ///< else some of them are inverted
   std::size_t bound = 0;       ///< of the strategy that is asked
 };
 
@@ -48,41 +44,19 @@ std::optional<Plan> keptDefects(const AttemptFailure& failure);
 
 // For another round.
 
-/// Irregular vertices that were asked for near the places of a failure get counterparts (see Requests/Counterparts.h),
-/// before features are given up for them. Not where the others are asked for as well. Bound: times in all.
+/// Irregular vertices that were asked for near the places of a failure get counterparts (see Requests/Counterparts.h).
+/// Not where the others are asked for as well. Bound: times in all.
 std::optional<Plan> withCounterparts(const AttemptFailure& failure);
-
-/// Features that may be given up (see mayBeGivenUp) are, near the places of a failure, twice as far as the last time
-/// where a place fails again, and after a failure so far that there are some; or those that only the dihedral angle
-/// asked for, near folds at which quads are inverted. Bound: times in all, for quads that are inverted.
-std::optional<Plan> fewerFeatures(const AttemptFailure& failure);
 
 /// Where nothing else has led to quads, and those of a valid map touch themselves, as round a thin part: twice as many
 /// everywhere; where small details are to be resolved, at once as many as go three times round the shortest loop,
 /// unless their edges were shorter than kLeastShrink. Bound: doublings.
 std::optional<Plan> moreQuads(const AttemptFailure& failure);
 
-/// Where nothing else has led to quads: of the features that may be given up those go that quads four times as large
-/// could not follow (see removeUnresolvedFeatures), and the next time all. Bound: times in all.
-std::optional<Plan> coarserFeatures(const AttemptFailure& failure);
-
-/// The plan of coarserFeatures; none where there is no such feature.
-std::optional<Plan> withCoarserFeatures(const RunContext& run, const Plan& before);
-
 /// Calls the plan by what has made it.
 void setStep(Plan& plan, Try which);
 
-/// Whether a limit of the user stands in the way, which features have no part in.
+/// Whether a limit of the user stands in the way.
 bool isTooLarge(const Attempt& attempt);
-
-/// Whether features leave coarse triangles no area at so many places that no other vertices mend it.
-bool leavesNoArea(const MapAttempt& map);
-
-/// How far round each of the places features are given up: half an edge length where it has not failed before, else
-/// twice as far as then.
-std::vector<FeatureDrop> dropsAt(const AttemptFailure& failure, const std::vector<Vector3>& places);
-/// The features that go then.
-std::vector<Index> featuresNear(
-  const AttemptFailure& failure, const std::vector<FeatureDrop>& drops);
 
 } // namespace quadrille

@@ -61,26 +61,13 @@ std::vector<KnownCurvature> knownCurvatures(const SurfaceInput& input)
   return known;
 }
 
-/// Of a designed body: what is marked so far was asked for, and yields.
-void letFeaturesYield(PreparedSurface& surface)
-{
-  surface.facets.isDesigned = true;
-  for (std::uint8_t& flags : surface.mesh.flags.editAll())
-  {
-    flags |= (flags & kRequestedFeature) != 0 ? kYieldingFeature : 0;
-  }
-}
-
 void markFeatures(
   PreparedSurface& surface, const SurfaceInput& input, const PrepareOptions& options)
 {
-  if (input.featuresYield)
-  {
-    letFeaturesYield(surface);
-  }
+  surface.facets.isDesigned = input.isDesigned;
   if (!input.patchIds.empty())
   {
-    markFeaturesByPatch(surface, input.patchIds, input.patchesYield);
+    markFeaturesByPatch(surface, input.patchIds);
   }
   if (options.featureAngle && input.detectedFeatures.empty())
   {

@@ -348,7 +348,7 @@ ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray
   readPolygons(data, surface, threads);
   readStrips(data, surface);
   readFeatureEdges(data, surface, threads);
-  surface.input.featuresYield = data->GetFieldData()->HasArray(arrays::kCadShape);
+  surface.input.isDesigned = data->GetFieldData()->HasArray(arrays::kCadShape);
   readDetectedFeatures(data, surface);
   readKnownCurvature(data, surface);
   readPatchIds(data, patchArray, surface, threads);

@@ -318,6 +318,27 @@ inline Mesh disjointUnion(Mesh a, const Mesh& b, const Vector3& offset)
   return a;
 }
 
+/// #F, bits as SurfaceInput::featureEdges: edges that join all vertices of a connected mesh, and close no loop.
+inline std::vector<std::uint8_t> spanningTree(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> bits(mesh.faceCount(), 0), isReached(mesh.vertexCount(), 0);
+  isReached[mesh.origin[0]] = 1;
+  for (bool grows = true; grows;)
+  {
+    grows = false;
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      if (isReached[mesh.origin[h]] != 0 && isReached[mesh.target(h)] == 0)
+      {
+        isReached[mesh.target(h)] = 1;
+        bits[Mesh::face(h)] |= static_cast<std::uint8_t>(1U << h % 3);
+        grows = true;
+      }
+    }
+  }
+  return bits;
+}
+
 /// A sphere and a cube, disjoint. chi 4.
 inline Mesh twoComponents()
 {

@@ -373,7 +373,7 @@ TEST(QuadRemeshFailure, IsToldOnceForAllPorts)
   vtkOutputWindow::SetInstance(before);
 }
 
-/// A sphere and one all of whose edges were asked for, which too few quads cannot follow.
+/// A sphere, and one with a tree of features through all its points, which too few quads cannot follow.
 vtkSmartPointer<vtkPolyData> sphereAndOneWithoutMap()
 {
   const Mesh sphere = test::sphere(3);
@@ -381,9 +381,13 @@ vtkSmartPointer<vtkPolyData> sphereAndOneWithoutMap()
     test::toPolyData(test::disjointUnion(sphere, sphere, Vector3(3, 0, 0)));
   vtkNew<vtkUnsignedCharArray> edges;
   edges->SetName("FeatureEdges");
-  for (vtkIdType f = 0; f < data->GetNumberOfCells(); ++f)
+  for (Index f = 0; f < sphere.faceCount(); ++f)
   {
-    edges->InsertNextValue(f < static_cast<vtkIdType>(sphere.faceCount()) ? 0 : 7);
+    edges->InsertNextValue(0);
+  }
+  for (const std::uint8_t bits : test::spanningTree(sphere))
+  {
+    edges->InsertNextValue(bits);
   }
   data->GetCellData()->AddArray(edges);
   return data;

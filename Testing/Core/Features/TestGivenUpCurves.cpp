@@ -97,12 +97,12 @@ TEST(GivenUpCurves, TheyEndWhereTheyMeet)
   const std::vector<std::uint8_t> cross = mesh.flags;
   mesh.flags = bar;
   const std::vector<GivenUpCurve> halves =
-    givenUpCurves(mesh, lostFeatures(mesh, cross), 2, FeatureLoss::FailedMap);
+    givenUpCurves(mesh, lostFeatures(mesh, cross), 2, FeatureLoss::Unresolved);
   ASSERT_EQ(halves.size(), 2u);
   EXPECT_EQ(halves[0].length, 8);
   EXPECT_EQ(halves[1].lengthInQuads, 4);
   mesh.flags.assign(mesh.flags.size(), 0);
-  EXPECT_EQ(givenUpCurves(mesh, lostFeatures(mesh, cross), 2, FeatureLoss::FailedMap).size(), 4u);
+  EXPECT_EQ(givenUpCurves(mesh, lostFeatures(mesh, cross), 2, FeatureLoss::Unresolved).size(), 4u);
   EXPECT_EQ(givenUpCurves(mesh, lostFeatures(mesh, bar), 2, FeatureLoss::NoCrease).size(), 1u);
 }
 

@@ -125,8 +125,8 @@ TEST(GivenUpFeatures, ThreadsAndScaleChangeNothing)
   }
 }
 
-/// Four patches that no map has with all their borders, see there: where these yield, or are edges of a design, all
-/// stay, and faces are filled.
+/// Four patches that no map has with all their borders, see there: all stay, and faces are filled, whoever asked for
+/// them.
 TEST(GivenUpFeatures, FacesBetweenBordersAreFilled)
 {
   const test::PatchedMesh tube = test::staggeredTube(0.02);
@@ -138,8 +138,7 @@ TEST(GivenUpFeatures, FacesBetweenBordersAreFilled)
       !mesh.isBoundary(h) && tube.patch[Mesh::face(h)] != tube.patch[Mesh::face(mesh.twin[h])];
     borders[Mesh::face(h)] |= static_cast<std::uint8_t>(isBorder ? 1U << h % 3 : 0U);
   }
-  for (const auto& [isDesign, yields] :
-    { std::pair(false, false), { false, true }, { true, true } })
+  for (const bool isDesign : { false, true })
   {
     SurfaceInput input = test::toInput(mesh);
     RemeshOptions options;
@@ -148,20 +147,14 @@ TEST(GivenUpFeatures, FacesBetweenBordersAreFilled)
     if (isDesign)
     {
       input.featureEdges = borders;
-      input.featuresYield = yields;
+      input.isDesigned = true;
       options.featureAngle.reset();
     }
     else
     {
       input.patchIds = tube.patch;
-      input.patchesYield = yields;
     }
     const RemeshResult result = remesh(input, options);
-    if (!yields)
-    {
-      EXPECT_FALSE(result.status.ok()); // what was marked stays
-      continue;
-    }
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     EXPECT_TRUE(std::any_of(result.notices.begin(), result.notices.end(),
       [](const std::string& text)
@@ -183,8 +176,8 @@ TEST(GivenUpFeatures, FacesBetweenBordersAreFilled)
   }
 }
 
-/// With a gap that quads fit into nothing gives way, and the result is the one without the permission.
-TEST(GivenUpFeatures, BordersWithRoomStay)
+/// With a gap that quads fit into none is.
+TEST(GivenUpFeatures, BordersWithRoomHaveAMap)
 {
   const test::PatchedMesh wide = test::staggeredTube(0.3);
   SurfaceInput input = test::toInput(wide.mesh);
@@ -193,11 +186,8 @@ TEST(GivenUpFeatures, BordersWithRoomStay)
   options.quads = 1500;
   options.threads = 1;
   const RemeshResult asked = remesh(input, options);
-  input.patchesYield = true;
-  const RemeshResult yielding = remesh(input, options);
   ASSERT_TRUE(asked.status.ok()) << asked.status.message;
   EXPECT_EQ(asked.certificate.withoutMap, 0U);
-  EXPECT_EQ(yielding.quads.points, asked.quads.points);
 }
 
 /// A plate whose edges on some lines are features, with those of its faces cut out that a test names.

@@ -109,7 +109,7 @@ TEST(History, QuadsBelongToTheBestMapAndEndTheRound)
   EXPECT_EQ(history.ofRound().quads, quads);
   EXPECT_EQ(history.result().map, best);
   // A map of the next round is measured by itself.
-  history.addMap(planOf("fewer features"), other);
+  history.addMap(planOf("counterparts"), other);
   EXPECT_EQ(history.ofRound().map, other);
   EXPECT_EQ(history.ofRound().quads, nullptr);
   EXPECT_EQ(history.result().map, best);
@@ -132,7 +132,7 @@ TEST(History, LaterQuadsCountWithAtMostHalfAsManyInverted)
   History history;
   const auto add = [&](std::size_t inverted)
   {
-    addRound(history, planOf("fewer features"), carriedMap(1), quadsWith(inverted));
+    addRound(history, planOf("counterparts"), carriedMap(1), quadsWith(inverted));
     EXPECT_EQ(history.last().quads->invertedQuads, inverted);
     return history.result().quads->invertedQuads;
   };
@@ -150,10 +150,10 @@ TEST(History, FailuresAfterAGoodAttemptDoNotHideIt)
   EXPECT_FALSE(history.hasResult());
   const auto good = carriedMap(3);
   addRound(history, planOf("more quads"), good, quadsWith(4));
-  addRound(history, planOf("fewer features"), carriedMap(0), failedQuads());
+  addRound(history, planOf("counterparts"), carriedMap(0), failedQuads());
   EXPECT_EQ(history.result().map, good);
   const auto failed = failedMap();
-  addRound(history, planOf("fewer features"), failed, nullptr);
+  addRound(history, planOf("counterparts"), failed, nullptr);
   EXPECT_TRUE(history.hasResult());
   EXPECT_EQ(history.result().map, good);
   EXPECT_STREQ(history.result().plan.step, "more quads");
@@ -218,10 +218,10 @@ TEST(History, IsSpentByTheWorkOfAllRounds)
   History history(boundOf(1000));
   addRound(history, planOf("first"), ofWork(failedMap(), 489), nullptr);
   EXPECT_FALSE(history.isSpent());
-  addRound(history, planOf("fewer features"), ofWork(failedMap(), 490), nullptr);
+  addRound(history, planOf("counterparts"), ofWork(failedMap(), 490), nullptr);
   EXPECT_EQ(history.work(), 999U); // with what attempts take beside their maps
   EXPECT_FALSE(history.isSpent());
-  addRound(history, planOf("fewer features"), ofWork(failedMap(), 0), nullptr);
+  addRound(history, planOf("counterparts"), ofWork(failedMap(), 0), nullptr);
   EXPECT_TRUE(history.isSpent());
 }
 
@@ -257,7 +257,7 @@ TEST(History, IsSpentByTheNumberOfAttempts)
   EXPECT_EQ(history.attempts(), 2U);
   addRound(history, planOf("first"), failedMap(), nullptr);
   EXPECT_FALSE(history.isSpent());
-  addRound(history, planOf("fewer features"), failedMap(), nullptr);
+  addRound(history, planOf("counterparts"), failedMap(), nullptr);
   // Four are left for the last resort.
   EXPECT_EQ(history.attempts(), 4U);
   EXPECT_TRUE(history.isSpent());
@@ -292,7 +292,7 @@ TEST(History, StagesHaveTheResultsSizesAndTheSecondsOfAll)
   undone->stages.add("replay", 32, 40, 200);
   others->stages.add("extract", 64, 200, 0);
   others->stages.add("optimize", 128, 9, 9);
-  addRound(history, planOf("fewer features"), undone, others);
+  addRound(history, planOf("counterparts"), undone, others);
   const StageRecords stages = history.stages();
   Texts names;
   for (const StageRecord& record : stages.all())
@@ -325,7 +325,7 @@ TEST(History, ReusedStagesAreThoseOfAllStartedOnesThoseOfTheResult)
   others->reused = { "optimize" };
   EXPECT_EQ(history.started(), Texts());
   addRound(history, planOf("first"), good, quads);
-  addRound(history, planOf("fewer features"), undone, others);
+  addRound(history, planOf("counterparts"), undone, others);
   EXPECT_EQ(history.reused(), Texts({ "phase1", "extract", "phase2", "optimize" }));
   EXPECT_EQ(history.started(), Texts({ "seamless" }));
 }
@@ -340,7 +340,7 @@ TEST(History, NoticesOfAnAttemptThatIsUndoneAreNotTheResults)
   good->notices = { "of the map" };
   quads->notices = { "of the quads" };
   addRound(history, plan, good, quads);
-  plan = planOf("fewer features");
+  plan = planOf("counterparts");
   plan.notices = { "of the plan", "sharp edges were not used" };
   undone->notices = { "of a map that is undone" };
   others->notices = { "of quads that are undone" };
@@ -372,7 +372,7 @@ TEST(History, PackedMapsKeepTheirUv)
   best->uv = cutMap(mesh, 20);
   last->uv = cutMap(mesh, 30);
   addRound(history, planOf("first"), ofResult, quadsWith(2));
-  history.addMap(planOf("fewer features"), best);
+  history.addMap(planOf("counterparts"), best);
   EXPECT_EQ(best->uv.size(), mesh.halfEdgeCount()); // its quads may come next
   history.addMap(planOf("kept defects"), last);
   EXPECT_TRUE(last->uv.empty()); // it will have none

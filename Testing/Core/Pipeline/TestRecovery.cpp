@@ -47,7 +47,7 @@ struct TestRun
   }
 
   const Mesh& mesh() const { return context.surface->mesh; }
-  PlannedSurface planned(const Plan& plan) const { return withPlan(context.surface, plan, 1); }
+  PlannedSurface planned(const Plan& plan) const { return withPlan(context.surface, plan); }
   const Hierarchy& levels(const Plan& plan)
   {
     return context.levels.make(planned(plan), levelOptions(context, plan));
@@ -113,8 +113,8 @@ std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centre
 TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
-    std::vector<std::string>({ "more freedom", "room for curves", "kept defects", "counterparts",
-      "fewer features", "more quads", "coarser features" }));
+    std::vector<std::string>(
+      { "more freedom", "room for curves", "kept defects", "counterparts", "more quads" }));
 }
 
 // The plan that a run begins with.
@@ -128,7 +128,6 @@ TEST(Recovery, FirstPlanTakesBudgetAndNumberFromTheOptions)
   EXPECT_EQ(plan.levels.coarseVertices, 123U);
   EXPECT_EQ(plan.quads, double{ kTarget });
   EXPECT_EQ(plan.sizes, nullptr);
-  EXPECT_EQ(plan.featuresGivenUp, nullptr);
   EXPECT_TRUE(plan.notices.empty());
 }
 
@@ -399,16 +398,23 @@ TEST(Recovery, KeptDefectsAreNotForWhatTheMethodNeverPromised)
   EXPECT_TRUE(nextMapPlan(run.context, history));
 }
 
-/// A unit cube whose edges are features, with edges of 1/8 and quads of twice that.
+/// A unit cube whose edges are features. Near the middle of one an irregular vertex was asked for.
 struct CubeRun : TestRun
 {
-  explicit CubeRun(const SurfaceInput& input = test::toInput(test::unitCube(8)))
-    : TestRun(input, 0.25, 0.7)
+  explicit CubeRun(bool isAsked = true) : TestRun(input(isAsked), 0.05, 0.7) {}
+  static SurfaceInput input(bool isAsked)
   {
+    SurfaceInput input = test::toInput(test::unitCube(20));
+    input.targetValences.assign(input.points.size(), 0);
+    for (std::size_t p = 0; p < input.points.size(); ++p)
+    {
+      const bool isThere = (input.points[p] - Vector3(0.5, 0.2, 0)).norm() < 1e-6;
+      input.targetValences[p] = isAsked && isThere ? 3 : 0;
+    }
+    return input;
   }
-  /// On an edge of the cube, in its middle.
+  /// On the edge of the cube, in its middle.
   Index onEdge() const { return vertexAt({ 0.5, 0, 0 }); }
-  Index inFace() const { return vertexAt({ 0.5, 0.5, 0 }); }
 };
 
 /// A coarse map that fails on an edge of the cube.
@@ -419,57 +425,19 @@ std::shared_ptr<MapAttempt> failedAtEdge()
   return failed;
 }
 
-TEST(Recovery, KeptDefectsLeaveTheLastTimeToFeaturesThatCanBeGivenUp)
-{
-  CubeRun run;
-  const auto offersAfter = [&](const char* step, Index vertex)
-  {
-    Plan plan = run.first();
-    plan.step = step;
-    History history;
-    history.addMap(plan, mapWithDefectsAt({ vertex }));
-    return nextMapPlan(run.context, history).has_value();
-  };
-  EXPECT_TRUE(offersAfter("first", run.onEdge()));
-  EXPECT_FALSE(offersAfter("kept defects", run.onEdge()));
-  EXPECT_TRUE(offersAfter("kept defects", run.inFace()));
-}
-
 TEST(Recovery, AnotherRoundBeginsWithTheLevelsOfTheFirst)
 {
   CubeRun run;
   Plan plan = run.first();
+  const std::vector<Index> first = plan.levels.keptVertices;
   plan.levels.keptVertices = { 1, 2, 3 };
   plan.levels.coarseVertices = 5000;
   plan.levels.edgeLength = 0.5;
   const std::optional<Plan> next = run.nextAfter(plan, failedAtEdge());
-  ASSERT_TRUE(next);
-  EXPECT_TRUE(next->levels.keptVertices.empty());
+  expectStep(next, "counterparts");
+  EXPECT_EQ(next->levels.keptVertices.size(), first.size() + next->counterparts->size());
   EXPECT_EQ(next->levels.coarseVertices, run.options.coarseVertices);
   EXPECT_EQ(next->levels.edgeLength, 1);
-}
-
-TEST(Recovery, BeforeFacesAreCutOutFeaturesStay)
-{
-  SurfaceInput input = test::toInput(test::unitCube(20));
-  const auto stepAfterFailure = [&]
-  {
-    TestRun run(input, 0.05, 0.7);
-    History history;
-    history.addMap(run.first(), failedAtEdge());
-    history.addQuads(nullptr);
-    EXPECT_TRUE(nextPlan(run.context, history, false));
-    const std::optional<Plan> plan = planBeforeCut(run.context, history);
-    return plan ? plan->step : "none";
-  };
-  EXPECT_STREQ(stepAfterFailure(), "none");
-  input.targetValences.assign(input.points.size(), 0);
-  for (std::size_t p = 0; p < input.points.size(); ++p)
-  {
-    const bool isAsked = (input.points[p] - Vector3(0.5, 0.2, 0)).norm() < 1e-6;
-    input.targetValences[p] = isAsked ? 3 : 0;
-  }
-  EXPECT_STREQ(stepAfterFailure(), "counterparts");
 }
 
 TEST(Recovery, AnotherRoundKeepsWhatTheCoarseMapNeeded)
@@ -482,10 +450,37 @@ TEST(Recovery, AnotherRoundKeepsWhatTheCoarseMapNeeded)
   plan.levels = plan.nextLevels;
   plan.levels.keptVertices = { 1, 4, 7 }; // 1 for the sake of the surface
   const std::optional<Plan> next = run.nextAfter(plan, failedAtEdge());
-  ASSERT_TRUE(next);
-  EXPECT_EQ(next->levels.keptVertices, std::vector<Index>({ 4, 7 }));
+  expectStep(next, "counterparts");
+  std::vector<Index> kept = { 4, 7 };
+  for (const ValenceRequest& request : *next->counterparts)
+  {
+    kept.push_back(request.vertex);
+  }
+  std::sort(kept.begin(), kept.end());
+  EXPECT_EQ(next->levels.keptVertices, kept);
   EXPECT_EQ(next->levels.coarseVertices, 321U);
   EXPECT_EQ(next->levels.edgeLength, 0.25);
+}
+
+TEST(Recovery, CounterpartsAreForIrregularVerticesNearTheFailureOnce)
+{
+  CubeRun free(false);
+  EXPECT_FALSE(free.nextAfter(free.first(), failedAtEdge()));
+  CubeRun run;
+  const std::optional<Plan> next = run.nextAfter(run.first(), failedAtEdge());
+  expectStep(next, "counterparts");
+  EXPECT_EQ(next->why, "no valid map of the coarse level");
+  ASSERT_EQ(next->notices.size(), 1U);
+  EXPECT_NE(next->notices[0].find("3 others were put beside"), std::string::npos)
+    << next->notices[0];
+  EXPECT_EQ(run.planned(*next)->valenceRequests.size(), 4U);
+  EXPECT_FALSE(run.nextAfter(*next, failedAtEdge()));
+  const auto far = failedMap();
+  far->failedPlaces = { Vector3(0.5, 1, 1) };
+  EXPECT_FALSE(run.nextAfter(run.first(), far));
+  const auto tooLarge = failedAtEdge();
+  tooLarge->status.code = StatusCode::TooLarge;
+  EXPECT_FALSE(run.nextAfter(run.first(), tooLarge));
 }
 
 TEST(Recovery, ManyFailedVerticesAreNotKeptForTheNextRound)
@@ -551,150 +546,6 @@ TEST(Recovery, MoreQuadsDoubleThemWhereTheyTouchThemselves)
   EXPECT_FALSE(run.nextAfter(plan, carriedMap(0), touching, true));
 }
 
-// Features that nobody asked for.
-
-/// A failure of the quads of a map with defects at these vertices.
-std::shared_ptr<MapAttempt> mapWithFoldsAt(std::vector<Index> vertices)
-{
-  auto map = carriedMap(1);
-  map->transfer.defectVertices = std::move(vertices);
-  return map;
-}
-
-/// The middles of the features that a plan gives up, by their x.
-std::vector<double> givenUpAt(const TestRun& run, const Plan& plan)
-{
-  EXPECT_TRUE(plan.featuresGivenUp);
-  if (!plan.featuresGivenUp)
-  {
-    return {};
-  }
-  std::vector<double> middles;
-  for (const Index h : *plan.featuresGivenUp)
-  {
-    const Vector3 p =
-      (run.mesh().position[run.mesh().origin[h]] + run.mesh().position[run.mesh().target(h)]) / 2;
-    EXPECT_EQ(p.y(), 0);
-    EXPECT_EQ(p.z(), 0);
-    middles.push_back(p.x());
-  }
-  std::sort(middles.begin(), middles.end());
-  return middles;
-}
-
-TEST(Recovery, FewerFeaturesGivesThemUpNearThePlacesFurtherEachTime)
-{
-  CubeRun run;
-  const auto map = mapWithFoldsAt({ run.onEdge() });
-  const std::optional<Plan> first = run.nextAfter(run.first(), map, failedQuads());
-  expectStep(first, "fewer features");
-  EXPECT_EQ(givenUpAt(run, *first), std::vector<double>({ 0.4375, 0.5625 }));
-  EXPECT_EQ(first->featureDrops, 1);
-  ASSERT_EQ(first->notices.size(), 1U);
-  EXPECT_EQ(first->notices[0].find("2 sharp edges near (0.5, 0, 0) "), 0U) << first->notices[0];
-  const std::optional<Plan> second = run.nextAfter(*first, map, failedQuads());
-  expectStep(second, "fewer features");
-  EXPECT_EQ(givenUpAt(run, *second), std::vector<double>({ 0.3125, 0.4375, 0.5625, 0.6875 }));
-  EXPECT_EQ(second->featureDrops, 2);
-  EXPECT_EQ(second->notices.size(), 2U);
-  // On the surface they are features no more, and are again for a plan that gives up none.
-  const Index h = second->featuresGivenUp->front();
-  const auto isFeature = [&](const Mesh& mesh)
-  { return std::pair(mesh.isFeature(h), mesh.isFeature(mesh.twin[h])); };
-  EXPECT_EQ(isFeature(run.planned(*second)->mesh), std::pair(false, false));
-  EXPECT_EQ(isFeature(run.planned(run.first())->mesh), std::pair(true, true));
-}
-
-TEST(Recovery, FewerFeaturesAreForThePlacesOfACoarseFailureToo)
-{
-  CubeRun run;
-  const auto failed = failedMap();
-  failed->hopeless = true;
-  EXPECT_FALSE(run.nextAfter(run.first(), failed));
-  failed->failedPlaces = { Vector3(0.5, 0, 0) };
-  const std::optional<Plan> next = run.nextAfter(run.first(), failed);
-  expectStep(next, "fewer features");
-  EXPECT_EQ(givenUpAt(run, *next), std::vector<double>({ 0.4375, 0.5625 }));
-}
-
-TEST(Recovery, FewerFeaturesBeginAnewAtAnotherPlace)
-{
-  CubeRun run;
-  const Vector3 other(1, 1, 0.5);
-  Plan plan = run.first();
-  for (int i = 0; i < 2; ++i)
-  {
-    plan = *run.nextAfter(plan, mapWithFoldsAt({ run.onEdge() }), failedQuads());
-  }
-  ASSERT_EQ(plan.dropped.size(), 2U);
-  EXPECT_EQ(plan.dropped[1].radius, 2 * plan.dropped[0].radius);
-  const std::size_t before = plan.featuresGivenUp->size();
-  plan = *run.nextAfter(plan, mapWithFoldsAt({ run.vertexAt(other) }), failedQuads());
-  ASSERT_EQ(plan.dropped.size(), 3U);
-  EXPECT_EQ(plan.dropped[2].place, other);
-  EXPECT_EQ(plan.dropped[2].radius, plan.dropped[0].radius);
-  EXPECT_EQ(plan.featuresGivenUp->size(), before + 2);
-}
-
-TEST(Recovery, FewerFeaturesReachUntilThereIsOne)
-{
-  CubeRun run;
-  const auto map = mapWithFoldsAt({ run.inFace() });
-  const std::optional<Plan> failed = run.nextAfter(run.first(), map, failedQuads());
-  expectStep(failed, "fewer features");
-  // The edges of one side are half its width away.
-  EXPECT_GT(failed->dropped[0].radius, 0.5);
-  EXPECT_FALSE(run.nextAfter(run.first(), map, quadsWith(1)));
-}
-
-TEST(Recovery, FewerFeaturesForQuadsAtFoldsEndAfterFourTimes)
-{
-  CubeRun run;
-  const auto map = mapWithFoldsAt({ run.onEdge() });
-  Plan plan = run.first();
-  plan.featureDrops = 3;
-  EXPECT_TRUE(run.nextAfter(plan, map, quadsWith(1)));
-  plan.featureDrops = 4;
-  EXPECT_FALSE(run.nextAfter(plan, map, quadsWith(1)));
-  EXPECT_TRUE(run.nextAfter(plan, map, failedQuads()));
-}
-
-TEST(Recovery, FewerFeaturesAreNoHelpAgainstALimitOfQuads)
-{
-  CubeRun run;
-  const auto map = mapWithFoldsAt({ run.onEdge() });
-  EXPECT_FALSE(run.nextAfter(run.first(), map, failedQuads(StatusCode::TooLarge)));
-  const auto failed = failedMap();
-  failed->failedPlaces = { Vector3(0.5, 0, 0) };
-  EXPECT_TRUE(run.nextAfter(run.first(), failed));
-  failed->status.code = StatusCode::TooLarge;
-  EXPECT_FALSE(run.nextAfter(run.first(), failed));
-}
-
-TEST(Recovery, FeaturesThatTheUserAskedForStay)
-{
-  SurfaceInput input = test::toInput(test::unitCube(8));
-  input.featureEdges.assign(input.polygonOffsets.size() - 1, 0);
-  // Half of an edge of the cube.
-  for (std::size_t corner = 0; corner < input.polygonPoints.size(); ++corner)
-  {
-    const std::size_t polygon = corner / 3;
-    const Vector3& a = input.points[input.polygonPoints[corner]];
-    const Vector3& b = input.points[input.polygonPoints[3 * polygon + (corner + 1) % 3]];
-    if (a.y() == 0 && b.y() == 0 && a.z() == 0 && b.z() == 0 && (a + b).x() > 1)
-    {
-      input.featureEdges[polygon] |= static_cast<std::uint8_t>(1U << corner % 3);
-    }
-  }
-  CubeRun run(input);
-  const auto map = mapWithFoldsAt({ run.onEdge() });
-  const std::optional<Plan> first = run.nextAfter(run.first(), map, failedQuads());
-  expectStep(first, "fewer features");
-  EXPECT_EQ(givenUpAt(run, *first), std::vector<double>({ 0.4375 }));
-  const Index asked = run.vertexAt({ 0.75, 0, 0 });
-  EXPECT_FALSE(run.nextAfter(run.first(), mapWithFoldsAt({ asked }), quadsWith(1)));
-}
-
 // Of all of them.
 
 TEST(Recovery, GoodQuadsNeedNothing)
@@ -727,48 +578,38 @@ TEST(Recovery, NothingIsTriedOnceTheWorkIsSpent)
 
 TEST(Recovery, WithoutQuadsTheLastResortIsTriedWhateverTheWork)
 {
-  CubeRun run;
+  TestRun run(test::gridPlane(12, 12), 1);
   WorkBound bound;
   bound.work = 1000;
-  const auto failed = failedMap();
-  failed->work = 1000;
+  const auto map = carriedMap(0);
+  map->work = 1000;
+  const auto touching = failedQuads();
+  touching->failedFaces = { 0 };
   History history(bound);
   Plan first = run.first();
-  first.levels.keptVertices = { run.inFace() };
+  first.levels.keptVertices = { 5 };
   first.levels.coarseVertices = 7;
-  history.addMap(first, failed);
+  history.addMap(first, map);
   EXPECT_FALSE(nextMapPlan(run.context, history));
-  history.addQuads(nullptr);
+  history.addQuads(touching);
   EXPECT_FALSE(nextPlan(run.context, history, false)); // something else follows
   const std::optional<Plan> next = nextPlan(run.context, history);
-  expectStep(next, "coarser features");
-  EXPECT_EQ(next->why, "no valid map of the coarse level");
-  ASSERT_TRUE(next->featuresGivenUp);
-  EXPECT_EQ(next->featuresGivenUp->size(), 12U * 8U); // all edges of the cube
+  expectStep(next, "more quads");
+  EXPECT_EQ(next->why, "no valid quads");
   EXPECT_EQ(next->levels.keptVertices, run.first().levels.keptVertices);
   EXPECT_EQ(next->levels.coarseVertices, run.first().levels.coarseVertices);
-  // There is nothing left to give up.
-  history.addMap(*next, failed);
-  history.addQuads(nullptr);
-  EXPECT_FALSE(nextPlan(run.context, history));
-}
-
-TEST(Recovery, TheLastResortLeavesFeaturesThatWereAskedFor)
-{
-  CubeRun run;
-  Mesh& mesh = const_cast<Mesh&>(run.mesh());
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    mesh.flags.edit()[h] |= mesh.isFeature(h) ? kRequestedFeature : 0;
-  }
-  EXPECT_FALSE(run.nextAfter(run.first(), failedMap(), nullptr, true));
 }
 
 TEST(Recovery, TheLastResortIsNoHelpAgainstALimitOfQuads)
 {
-  CubeRun run;
-  EXPECT_TRUE(run.nextAfter(run.first(), carriedMap(0), failedQuads(), true));
-  EXPECT_FALSE(run.nextAfter(run.first(), carriedMap(0), failedQuads(StatusCode::TooLarge), true));
+  TestRun run(test::gridPlane(12, 12), 1);
+  for (const StatusCode code : { StatusCode::Infeasible, StatusCode::TooLarge })
+  {
+    const auto touching = failedQuads(code);
+    touching->failedFaces = { 0 };
+    EXPECT_EQ(run.nextAfter(run.first(), carriedMap(0), touching, true).has_value(),
+      code == StatusCode::Infeasible);
+  }
 }
 
 TEST(Recovery, AnExpensiveFailureAtNoPlaceIsNoMatterOfFreedom)
@@ -792,15 +633,13 @@ TEST(Recovery, AnExpensiveFailureAtNoPlaceIsNoMatterOfFreedom)
 TEST(Recovery, NothingIsTriedForMethodsThatRoundOnceTheyHaveAMap)
 {
   CubeRun run;
-  const auto map = mapWithFoldsAt({ run.onEdge() });
-  const auto failed = failedMap();
-  failed->failedPlaces = { Vector3(0.5, 0, 0) };
+  const auto map = mapWithDefectsAt({ run.onEdge() });
   for (const MapMethod method : { MapMethod::MixedInteger, MapMethod::QuadCover })
   {
     run.options.method = method;
     EXPECT_FALSE(run.nextAfter(run.first(), map, failedQuads()));
     EXPECT_FALSE(run.nextAfter(run.first(), map, quadsWith(4)));
-    EXPECT_TRUE(run.nextAfter(run.first(), failed));
+    EXPECT_TRUE(run.nextAfter(run.first(), failedAtEdge()));
   }
   run.options.method = MapMethod::ScaleAware;
   EXPECT_TRUE(run.nextAfter(run.first(), map, failedQuads()));

@@ -39,7 +39,6 @@ protected:
     const PatchedMesh tube = staggeredTube(0.02);
     SurfaceInput input = toInput(tube.mesh);
     input.patchIds = tube.patch;
-    input.patchesYield = true;
     return input;
   }
   static RemeshOptions options()

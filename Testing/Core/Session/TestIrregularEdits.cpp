@@ -330,7 +330,6 @@ TEST(IrregularEditsOnFilledFaces, AreRefusedWithTheFace)
   const PatchedMesh tube = staggeredTube(0.02);
   SurfaceInput input = toInput(tube.mesh);
   input.patchIds = tube.patch;
-  input.patchesYield = true;
   RemeshOptions options = sessionOptions(300);
   options.coarseVertices = RemeshOptions().coarseVertices;
   Session session(input, options);

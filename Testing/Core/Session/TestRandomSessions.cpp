@@ -342,7 +342,6 @@ TEST(RandomSessions, OnPatchesThatAreFilled)
   const PatchedMesh tube = staggeredTube(0.02);
   SurfaceInput surface = toInput(tube.mesh);
   surface.patchIds = tube.patch;
-  surface.patchesYield = true;
   runOn(surface, 11);
 }
 
