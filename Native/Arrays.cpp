@@ -87,7 +87,7 @@ SurfaceInput surfaceFrom(const py::dict& surface)
   input.polygonPoints.assign(corners.begin(), corners.end());
   input.featureEdges = valuesOf<std::uint8_t>(surface, "feature_edges");
   input.patchIds = valuesOf<std::int64_t>(surface, "patch_ids");
-  input.featuresYield = surface.contains("designed");
+  input.isDesigned = surface.contains("designed");
   const auto known = valuesOf<float>(surface, "known_curvature");
   for (std::size_t i = 0; i + 5 < known.size(); i += 6)
   {

@@ -38,6 +38,14 @@ constexpr double kSameBoundary = 1e-6;
 /// Quads get so many strips at most.
 constexpr std::size_t kMostStrips = 100;
 
+/// Whether there is no map for the sake of what was asked for, as irregular vertices with a sum that no surface has: no
+/// face is at fault.
+bool contradictsItself(const MapAttempt& map)
+{
+  return map.status.code == StatusCode::Infeasible && map.failedAt.empty() &&
+    map.failedFaces.empty();
+}
+
 std::vector<Index> faceLabels(const Mesh& mesh)
 {
   Mesh opened = mesh;
@@ -475,7 +483,8 @@ bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history)
 {
-  return !history.hasResult() && !isTooLarge(history.last()) && mayCutFaces(surface, options);
+  return !history.hasResult() && !isTooLarge(history.last()) &&
+    !contradictsItself(*history.last().map) && mayCutFaces(surface, options);
 }
 
 double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed)

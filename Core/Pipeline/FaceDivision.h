@@ -33,7 +33,7 @@ struct CutFaces
 /// Whether features cut a surface into several faces, and parts of its boundary have not to fit others, which quads
 /// without a map do not care for.
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options);
-/// Whether attempts on such a surface have no quads yet.
+/// Whether attempts on such a surface have no quads yet, and not as what was asked for contradicts itself.
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history);
 /// The area of the faces in which a map has failed over that of the surface.

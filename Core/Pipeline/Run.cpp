@@ -103,8 +103,7 @@ void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> 
     {
       return isDivided(sized, history)
         ? std::nullopt
-        : nextPlan(run, history,
-            isLast && !history.hasResult() && !mayCutFaces(*sized.surface, run.options));
+        : nextPlan(run, history, isLast && !isCutAtFaces(*sized.surface, run.options, history));
     };
     const auto nextMap = [&]
     {
