@@ -286,6 +286,8 @@ def try_tool(session, name, chance, count):
         outcomes.append(outcome)
         print(f"{name} {number + 1}: {outcome.off:.3f} edge lengths off, met {outcome.met}; {outcome.text}"
               f"{'' if outcome.is_good() else '  BAD'}", flush=True)
+        if not outcome.is_good():
+            print(f"  drawn: {session.drawn()}", flush=True)
         if number < 2 or not outcome.is_good():
             session.shot(f"draw-{session.surface.stem}-{name.lower()}-{number + 1}")
     session.xdotool("key", "Escape")
