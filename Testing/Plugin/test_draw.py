@@ -548,10 +548,13 @@ def check_close(session):
         session.xdotool("mousemove", *FILE_MENU, "click", 1, "sleep", 0.5, "key", "d", "sleep", 0.5, "key", "Return")
     else:
         session.xdotool("mousemove", *CLOSE_VIEW, "sleep", 0.2, "click", 1)
-    time.sleep(3)
+    for _ in range(8 if session.remote else 1):  # to leave a server takes seconds on a busy machine
+        time.sleep(3)
+        grey = [saturation(session, name) for name in TOOLS]
+        if max(grey) < 30:
+            break
     session.shot("draw-closed")
     lives = session.paraview.poll() is None
-    grey = [saturation(session, name) for name in TOOLS]
     print(f"{'left the server' if session.remote else 'closed the view'} with a tool on: lives {lives}, tools {grey}")
     return not (lives and (max(grey) < 30 or not session.remote))
 
