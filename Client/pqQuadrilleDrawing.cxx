@@ -668,8 +668,14 @@ void pqQuadrilleDrawing::glide()
   if (this->Ball->Move &&
     this->Ball->Move->SendPreview(this->Ball->Filter, coordinatesOf({ this->Ball->From, *to })))
   {
-    pqQuadrilleRun::instance()->startPreview(
-      this->Ball->Filter, [this](pqQuadrilleRun::End) { this->Glide.start(); });
+    pqQuadrilleRun::instance()->startPreview(this->Ball->Filter,
+      [this](pqQuadrilleRun::End how)
+      {
+        if (how == pqQuadrilleRun::End::Shown)
+        {
+          this->glide();
+        }
+      });
   }
 }
 
@@ -685,7 +691,14 @@ void pqQuadrilleDrawing::letGo()
   ball->Move->EndPreview();
   if (ball->Filter)
   {
-    pqQuadrilleRun::instance()->startPreview(ball->Filter, [](pqQuadrilleRun::End) {}); // a look-up
+    pqQuadrilleRun::instance()->startPreview(ball->Filter, // a look-up
+      [view = this->View](pqQuadrilleRun::End)
+      {
+        if (view)
+        {
+          view->render(); // with smooth edges
+        }
+      });
   }
 }
 

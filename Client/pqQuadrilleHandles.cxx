@@ -259,8 +259,14 @@ void pqQuadrilleHandles::glide()
   if (filter && !this->IsReleased &&
     this->Constraint->SendPreview(filter, coordinatesOf(this->Points)))
   {
-    pqQuadrilleRun::instance()->startPreview(
-      filter, [this](pqQuadrilleRun::End) { this->Glide.start(); });
+    pqQuadrilleRun::instance()->startPreview(filter,
+      [this](pqQuadrilleRun::End how)
+      {
+        if (how == pqQuadrilleRun::End::Shown)
+        {
+          this->glide();
+        }
+      });
   }
 }
 

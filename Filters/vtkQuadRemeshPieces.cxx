@@ -81,7 +81,8 @@ std::unique_ptr<quadrille::PreparedRun> vtkQuadRemesh::PrepareRun(quadrille::Blo
   surface.whyNotCut = this->WhyNotCut(block);
   surface.whole = [reads = run.get()]
   {
-    reads->converted = quadrille::readInputs(reads->inputs, reads->told, reads->asked);
+    reads->converted = quadrille::readInputs(
+      reads->inputs, reads->told, reads->asked, reads->problem.store, &reads->read);
     return std::move(reads->converted->input);
   };
   problem.options = this->MakeRunOptions(block);
@@ -91,6 +92,7 @@ std::unique_ptr<quadrille::PreparedRun> vtkQuadRemesh::PrepareRun(quadrille::Blo
   problem.thinning = quadrille::isJoined(input) ? quadrille::Thinning::Never
                                                 : static_cast<quadrille::Thinning>(this->Pieces);
   problem.placed = &run->asked.placed;
+  problem.places = [reads = run.get()] { return reads->read->places.get(); };
   if (this->KeepLevels)
   {
     auto& memory = block.state->memoryAs<quadrille::LevelMemory>();

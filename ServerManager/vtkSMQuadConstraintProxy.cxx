@@ -448,6 +448,7 @@ void vtkSMQuadConstraintProxy::Follow()
     this->SendPoints(points, valuesOf(helper));
   }
   this->BeginPreview(filter);
+  filter->MarkModified(filter);
   updateViews(manager);
   this->IsBusy = false;
 }
@@ -477,7 +478,6 @@ void vtkSMQuadConstraintProxy::BeginPreview(vtkSMProxy* filter)
   this->Filter = filter;
   invoke(filter, "SetPreview", 1);
   this->MarkModified(this);
-  filter->MarkModified(filter);
 }
 
 //------------------------------------------------------------------------------

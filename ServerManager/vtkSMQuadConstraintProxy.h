@@ -64,7 +64,7 @@ public:
 
   /// Lets the next execution of the filter be a preview with other points, which do not become those of the properties,
   /// whether this is one of its constraints or not. Whether the filter has previews. It ends when properties are
-  /// applied, or by EndPreview.
+  /// applied, or by EndPreview. Whoever executes the filter marks it as modified.
   bool SendPreview(vtkSMProxy* filter, const std::vector<double>& coordinates);
   void EndPreview() { this->EndFollowing(); }
 

@@ -5,6 +5,7 @@
 #include "QuadrilleHelp.h"
 
 #include "vtkClientServerStream.h"
+#include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -19,6 +20,7 @@
 #include "vtkSMUndoStackBuilder.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <cstring>
 #include <set>
 #include <string>
@@ -93,6 +95,19 @@ const char* colouringArray(vtkPVXMLElement* hints, int port)
   return nullptr;
 }
 
+/// The property of a representation that names the array by which it is coloured; null where it has none.
+vtkSMProperty* coloursOf(vtkSMProxy* representation)
+{
+  return representation->GetProperty("ColorArrayName");
+}
+
+bool hasColours(vtkSMProperty* colours)
+{
+  constexpr unsigned int name = 4; // of the array, behind how it is found
+  const vtkSMPropertyHelper helper(colours, true);
+  return helper.GetNumberOfElements() > name && std::strlen(helper.GetAsString(name)) > 0;
+}
+
 /// What is changed meanwhile is not on the stack of undos, where there is one.
 class NoStepOfTheUser
 {
@@ -123,7 +138,7 @@ private:
 /// before, it warns that the array has no range, and shows a legend of nothing.
 void colour(vtkSMProxy* representation, const char* array, vtkSMSessionProxyManager* manager)
 {
-  if (!representation->GetProperty("ColorArrayName") || !representation->GetProperty("LookupTable"))
+  if (!coloursOf(representation) || !representation->GetProperty("LookupTable"))
   {
     return;
   }
@@ -281,18 +296,30 @@ void vtkSMQuadrilleSourceProxy::PostUpdateData(bool usingCache)
     vtkSMProxy* consumer = this->GetConsumerProxy(i);
     const int port = connectedPort(this->GetConsumerProperty(i), this);
     const char* array = port < 0 ? nullptr : colouringArray(this->GetHints(), port);
-    if (!array || !isRepresentation(consumer) ||
-      this->GetDataInformation(static_cast<unsigned int>(port))->GetNumberOfCells() == 0)
-    {
-      continue;
-    }
-    const vtkSMPropertyHelper colours(consumer, "ColorArrayName", true);
-    if (colours.GetNumberOfElements() < 5 || std::strlen(colours.GetAsString(4)) == 0)
+    vtkSMProperty* colours = isRepresentation(consumer) ? coloursOf(consumer) : nullptr;
+    if (array && colours && !hasColours(colours) && !this->HadColours(colours) &&
+      this->GetDataInformation(static_cast<unsigned int>(port))->GetNumberOfCells() > 0)
     {
       const NoStepOfTheUser notUndone;
       colour(consumer, array, this->GetSessionProxyManager());
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMQuadrilleSourceProxy::NoteColours(vtkObject* changed, unsigned long, void*)
+{
+  auto* colours = vtkSMProperty::SafeDownCast(changed);
+  if (hasColours(colours) && !this->HadColours(colours))
+  {
+    this->Coloured.emplace_back(colours);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMQuadrilleSourceProxy::HadColours(vtkSMProperty* colours) const
+{
+  return std::find(this->Coloured.begin(), this->Coloured.end(), colours) != this->Coloured.end();
 }
 
 //------------------------------------------------------------------------------
@@ -314,6 +341,16 @@ void vtkSMQuadrilleSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy*
   }
   if (isRepresentation(consumer))
   {
+    vtkSMProperty* colours = coloursOf(consumer);
+    if (colours && this->GetSessionProxyManager()->GetInLoadXMLState())
+    {
+      this->Coloured.emplace_back(colours);
+    }
+    else if (colours)
+    {
+      colours->AddObserver(
+        vtkCommand::ModifiedEvent, this, &vtkSMQuadrilleSourceProxy::NoteColours);
+    }
     makeColourMaps(this->GetHints(), this->GetSessionProxyManager());
     letPicksThrough(port, consumer);
     applyDisplayHints(this->GetHints(), port, consumer);

@@ -16,7 +16,8 @@
  * sets later stays.
  *
  * A hint `<Colour port="8" cells="Problem"/>` has the representations of an output coloured by an array of its cells as
- * soon as it has cells, where they have no colours by then.
+ * soon as it has cells, where they have had no colours by then: a solid colour that is chosen later stays, and so does
+ * that of a state file.
  *
  * A hint `<OnDemand port="1" property="ComputeMappedSurface"/>` switches the property on when something takes the
  * output as its input: ParaView gathers information of all outputs, looked at or not, so what costs is not made before.
@@ -36,6 +37,11 @@
 
 #include "QuadrilleServerManagerModule.h" // for the export macro
 #include "vtkSMSourceProxy.h"
+#include "vtkWeakPointer.h" // for properties of representations
+
+#include <vector> // for these
+
+class vtkSMProperty;
 
 class QUADRILLESERVERMANAGER_EXPORT vtkSMQuadrilleSourceProxy : public vtkSMSourceProxy
 {
@@ -60,6 +66,12 @@ protected:
 private:
   vtkSMQuadrilleSourceProxy(const vtkSMQuadrilleSourceProxy&) = delete;
   void operator=(const vtkSMQuadrilleSourceProxy&) = delete;
+
+  void NoteColours(vtkObject* changed, unsigned long, void*);
+  bool HadColours(vtkSMProperty* colours) const;
+
+  std::vector<vtkWeakPointer<vtkSMProperty>>
+    Coloured; ///< of representations that get no colours any more
 };
 
 #endif

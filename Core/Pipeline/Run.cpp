@@ -513,7 +513,7 @@ RemeshResult remesh(SurfaceInput input, const RemeshOptions& options)
 
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options, ResultStore& store)
 {
-  return remeshInput(input, options, &store, false);
+  return remeshInput(input, options, &store, options.preview); // of which the quads alone are told
 }
 
 RemeshResult remeshQuads(SurfaceInput input, const RemeshOptions& options, ResultStore& store)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Prepare/SurfacePaths.h"
 
+#include "Prepare/InputPlaces.h"
+
 #include "Prepare/Prepare.h"
 
 #include <utility>
@@ -19,13 +21,9 @@ MeshCourse SurfacePaths::through(const std::vector<Vector3>& points) const
 {
   if (!made_ && !mesh_)
   {
-    SurfaceInput shape;
-    shape.points = input_.points;
-    shape.polygonOffsets = input_.polygonOffsets;
-    shape.polygonPoints = input_.polygonPoints;
     PrepareOptions options;
     options.threads = threads_;
-    mesh_ = prepareSurface(std::move(shape), options).mesh;
+    mesh_ = prepareSurface(shapeOf(input_), options).mesh;
   }
   const Mesh& mesh = made_ ? made_->mesh : *mesh_;
   const Frame frame = made_ ? frame_ : Frame();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/InsertPlaces.h"
 
+#include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/Distance.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -26,6 +28,7 @@ namespace
 
 /// Points nearer to a vertex, or to an edge, take it, in s.
 constexpr double kTaken = 0.01;
+constexpr std::size_t kVertexChunk = 1 << 13;
 /// A path takes a vertex in place of a point of a shorter edge than this, in s: it is straight to a tenth of s.
 constexpr double kFineForPaths = 0.2;
 
@@ -198,14 +201,32 @@ private:
     std::sort(order.begin(), order.end(),
       [&](std::size_t a, std::size_t b) { return points[a].x() < points[b].x(); });
     const double reach = kTaken * s_;
+    const auto firstInReach = [&](const Vector3& p)
+    {
+      return std::lower_bound(order.begin(), order.end(), p.x() - reach,
+        [&](std::size_t i, double x) { return points[i].x() < x; });
+    };
+    // Six half-edges leave a vertex.
+    std::vector<std::uint8_t> mayTake(mesh_.vertexCount());
+    parallelForEach(mayTake.size(), kVertexChunk, threads_,
+      [&](std::size_t v)
+      {
+        const Vector3& p = mesh_.position[v];
+        for (auto at = firstInReach(p); at != order.end() && points[*at].x() <= p.x() + reach; ++at)
+        {
+          mayTake[v] |= (points[*at] - p).norm() <= reach ? 1 : 0;
+        }
+      });
     std::vector<Index> near(points.size(), kInvalidIndex);
     std::vector<double> least(points.size(), reach);
     for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
     {
+      if (mayTake[mesh_.origin[h]] == 0)
+      {
+        continue;
+      }
       const Vector3& p = mesh_.position[mesh_.origin[h]];
-      auto at = std::lower_bound(order.begin(), order.end(), p.x() - reach,
-        [&](std::size_t i, double x) { return points[i].x() < x; });
-      for (; at != order.end() && points[*at].x() <= p.x() + reach; ++at)
+      for (auto at = firstInReach(p); at != order.end() && points[*at].x() <= p.x() + reach; ++at)
       {
         const double distance = (points[*at] - p).norm();
         if (distance < least[*at] || (near[*at] == kInvalidIndex && distance == least[*at]))

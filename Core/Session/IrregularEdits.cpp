@@ -81,7 +81,14 @@ private:
 
   const IrregularVertex& vertexNear(std::size_t i) const
   {
-    requireMap(where_.places.nearestPlace(edit_.points[i]).point);
+    const Vector3 place = where_.places.nearestPlace(edit_.points[i]).point;
+    requireMap(place);
+    if (isOnCurve(place))
+    {
+      // A corner of a feature may look irregular, and the nearest one inside would be another one than is meant.
+      refuse(name_, " needs an irregular vertex inside, but at ", placeText(place),
+        " is a feature or boundary, whose vertices stay: choose one beside it");
+    }
     if (irregular_.empty())
     {
       refuse(name_, " needs an irregular vertex near ", placeText(edit_.points[i]),
@@ -118,15 +125,19 @@ private:
       }
     }
     requireMap(place);
-    for (const auto& [a, b] : where_.fixed.edges)
+    if (isOnCurve(place))
     {
-      if (distanceToSegment(place, a, b) <= where_.sameWithin)
-      {
-        refuse(name_, " would put an irregular vertex on a feature or boundary, at ",
-          placeText(place), ": choose a place inside");
-      }
+      refuse(name_, " would put an irregular vertex on a feature or boundary, at ",
+        placeText(place), ": choose a place inside");
     }
     return place;
+  }
+  /// Of a feature or a boundary.
+  bool isOnCurve(const Vector3& place) const
+  {
+    return std::any_of(where_.fixed.edges.begin(), where_.fixed.edges.end(),
+      [&](const std::array<Vector3, 2>& edge)
+      { return distanceToSegment(place, edge[0], edge[1]) <= where_.sameWithin; });
   }
   /// Quads that fill a face without a map have irregular vertices that no operation can take.
   void requireMap(const Vector3& place) const

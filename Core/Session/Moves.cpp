@@ -3,8 +3,11 @@
 #include "Session/Moves.h"
 
 #include "Base/Error.h"
+#include "Mesh/ContentHash.h"
+#include "Pipeline/RequestKeys.h"
 #include "Session/ComposedInput.h"
 #include "Session/IrregularEdits.h"
+#include "Session/SessionText.h"
 
 #include <algorithm>
 #include <map>
@@ -51,20 +54,39 @@ void change(
   }
 }
 
+/// What moves find in the quads without them.
+struct QuadsBefore
+{
+  std::vector<IrregularVertex> irregular;
+  FixedPlaces fixed;
+  std::vector<HeldVertex> onFeatures;
+  double edgeLength = 0; ///< that was asked for
+};
+
+QuadsBefore quadsBefore(const SurfaceInput& surface, const RemeshResult& without, int threads)
+{
+  const MadeSurface made{ without.surface };
+  const OnCurves onCurves = findOnCurves(made, threads);
+  return { irregularVertices(made, without.turns, onCurves, surface.drawn.valences,
+             kTakenVertex * without.targetEdgeLength),
+    fixedPlaces(made, onCurves, without.withoutMap), featureVertices(made, without.onFeatures),
+    without.targetEdgeLength };
+}
+
+std::size_t bytesOfQuadsBefore(const QuadsBefore& before)
+{
+  return sizeof(before) + bytesOf(before.irregular) + bytesOf(before.fixed.edges) +
+    bytesOf(before.fixed.withoutMap) + bytesOf(before.onFeatures);
+}
+
 /// Moves as the operations of a session, resolved one after the other.
 class MoveList
 {
 public:
-  MoveList(const SurfaceInput& surface, const PlacesOfSession& where, const RemeshResult& without,
-    int threads)
-    : where_(where)
+  MoveList(const PlacesOfSession& where, const QuadsBefore& before)
+    : where_(where), irregular_(before.irregular), fixed_(before.fixed),
+      onFeatures_(before.onFeatures)
   {
-    const MadeSurface made{ without.surface };
-    const OnCurves onCurves = findOnCurves(made, threads);
-    irregular_ = irregularVertices(made, without.turns, onCurves, surface.drawn.valences,
-      kTakenVertex * without.targetEdgeLength);
-    fixed_ = fixedPlaces(made, onCurves, without.withoutMap);
-    onFeatures_ = featureVertices(made, without.onFeatures);
   }
 
   /// id: above 0. Fills the move's path and valence, or whyNot.
@@ -114,8 +136,8 @@ private:
 
   const PlacesOfSession& where_;
   std::vector<IrregularVertex> irregular_;
-  FixedPlaces fixed_;
-  std::vector<HeldVertex> onFeatures_;
+  const FixedPlaces& fixed_;
+  const std::vector<HeldVertex>& onFeatures_;
   IrregularList list_;
   SessionConstraints constraints_;
 };
@@ -131,15 +153,24 @@ void tellLeftOut(const std::vector<PlacedConstraint>& placed, std::vector<std::s
   }
 }
 
-} // namespace
-
-bool asksForMoves(const std::vector<PlacedConstraint>& placed)
+/// Of what the quads without moves depend on.
+ResultKey keyOfQuadsBefore(const SurfaceInput& input, const RemeshOptions& options)
 {
-  return std::any_of(placed.begin(), placed.end(), isMove);
+  KeyMaker key(contentHash(input, options.threads));
+  key.add(requestsKey(input), input.sizingOrders, input.drawn.cleared);
+  for (const FeatureRequest& feature : input.drawn.features)
+  {
+    key.add(feature.points);
+  }
+  for (const SizeRequest& size : input.drawn.sizes)
+  {
+    key.add(size.place, size.radius, size.factor, size.order);
+  }
+  return key.add(settingsText(options), options.decimationCost, options.leavesOutFailed).key();
 }
 
-SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
-  const RemeshRun& run, std::vector<PlacedConstraint>& placed, std::vector<std::string>& notices)
+SymmetricResult runWithoutMoves(
+  const SurfaceInput& input, const RemeshOptions& options, const RemeshRun& run)
 {
   RemeshOptions first = options;
   first.preview = false; // it has no places on the surface
@@ -152,14 +183,14 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
     made = {};
     made.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
   }
-  if (!made.remeshed.status.ok())
-  {
-    return made;
-  }
-  const SurfacePlaces places(input, options.threads);
-  const SurfacePaths paths(input, options.threads);
-  const PlacesOfSession where{ places, paths, kOnePlace * made.remeshed.targetEdgeLength };
-  MoveList list(input, where, made.remeshed, options.threads);
+  return made;
+}
+
+SymmetricResult makeMoves(const SurfaceInput& input, const RemeshOptions& options,
+  const RemeshRun& run, const PlacesOfSession& where, const QuadsBefore& before,
+  std::vector<PlacedConstraint>& placed, std::vector<std::string>& notices)
+{
+  MoveList list(where, before);
   for (std::size_t i = 0; i < placed.size(); ++i)
   {
     if (isMove(placed[i]))
@@ -167,7 +198,6 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
       list.add(static_cast<int>(i) + 1, placed[i]);
     }
   }
-  const std::vector<Vector3> before = made.remeshed.withoutMap;
   std::map<int, std::string> leftOut;
   LinePlacements lines;
   bool holdsFeatures = true;
@@ -186,9 +216,9 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
       placed[static_cast<std::size_t>(id) - 1].whyNot = composed.parts[c].whyNot;
       last = composed.parts[c].whyNot.empty() ? id : last;
     }
-    made = run(std::move(composed.input), options);
+    SymmetricResult made = run(std::move(composed.input), options);
     const std::string whyNot = isForOtherReasons(made.remeshed.status)
-      ? lostMapText(made.remeshed.withoutMap, before)
+      ? lostMapText(made.remeshed.withoutMap, before.fixed.insideOfFaces)
       : made.remeshed.status.message;
     if (!whyNot.empty() && isHeld)
     {
@@ -204,6 +234,39 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
     }
     leftOut[*last] = whyNot;
   }
+}
+
+} // namespace
+
+bool asksForMoves(const std::vector<PlacedConstraint>& placed)
+{
+  return std::any_of(placed.begin(), placed.end(), isMove);
+}
+
+SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
+  const RemeshRun& run, const KnownOfMoves& known, std::vector<PlacedConstraint>& placed,
+  std::vector<std::string>& notices)
+{
+  const ResultKey key = known.store != nullptr ? keyOfQuadsBefore(input, options) : 0;
+  std::shared_ptr<QuadsBefore> before = findIn<QuadsBefore>(known.store, key);
+  if (!before)
+  {
+    SymmetricResult without = runWithoutMoves(input, options, run);
+    if (!without.remeshed.status.ok())
+    {
+      return without;
+    }
+    before = std::make_shared<QuadsBefore>(quadsBefore(input, without.remeshed, options.threads));
+    if (known.store != nullptr)
+    {
+      known.store->put(key, before, bytesOfQuadsBefore(*before));
+    }
+  }
+  std::optional<InputPlaces> made;
+  const InputPlaces& places =
+    known.places != nullptr ? *known.places : made.emplace(input, options.threads);
+  return makeMoves(input, options, run,
+    { places.places, places.paths, kOnePlace * before->edgeLength }, *before, placed, notices);
 }
 
 } // namespace quadrille

@@ -3,6 +3,8 @@
 /// Moves of irregular vertices that are drawn: they need the quads without them, in which the vertices are found.
 #pragma once
 
+#include "Pipeline/ResultStore.h"
+#include "Prepare/InputPlaces.h"
 #include "Requests/DrawnConstraints.h"
 #include "Symmetry/Symmetry.h"
 
@@ -18,6 +20,14 @@ using RemeshRun = std::function<SymmetricResult(SurfaceInput, const RemeshOption
 
 bool asksForMoves(const std::vector<PlacedConstraint>& placed);
 
+/// What earlier calls have found out, all of it of this input.
+struct KnownOfMoves
+{
+  ResultStore* store =
+    nullptr; ///< of the run; null: none, as the run depends on more than input and options
+  const InputPlaces* places = nullptr; ///< null: none
+};
+
 /// Makes the quads of the input, finds the irregular vertex nearest to the begin of each move, and makes the quads with
 /// it at the end instead; all other irregular vertices stay where they are. The moves are done in their order, each in
 /// what those before it have left. Those that cannot be met, together with what else is asked for, are left out, the
@@ -25,6 +35,7 @@ bool asksForMoves(const std::vector<PlacedConstraint>& placed);
 /// placed: of its moves the path becomes the vertex's old place and its new one, the place of the surface nearest to
 /// what was drawn, and they get the vertex's valence; or whyNot. notices: what the user should know.
 SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
-  const RemeshRun& run, std::vector<PlacedConstraint>& placed, std::vector<std::string>& notices);
+  const RemeshRun& run, const KnownOfMoves& known, std::vector<PlacedConstraint>& placed,
+  std::vector<std::string>& notices);
 
 } // namespace quadrille

@@ -196,6 +196,13 @@ SymmetricResult remeshUnthinned(
   return plain;
 }
 
+/// With a symmetry, or a map that starts from another one, quads depend on more than input and options.
+KnownOfMoves knownOfMoves(const QuadProblem& problem)
+{
+  const bool isAll = !problem.symmetry && !problem.options.warmStart;
+  return { isAll ? problem.store : nullptr, problem.places ? problem.places() : nullptr };
+}
+
 } // namespace
 
 GivenSurface given(SurfaceInput& input)
@@ -239,7 +246,7 @@ QuadsMade remesh(const QuadProblem& problem)
   const auto run = [&problem](SurfaceInput surface, const RemeshOptions& how)
   { return remeshUnthinned(std::move(surface), how, problem); };
   SymmetricResult result = hasMoves
-    ? remeshWithMoves(input, options, run, *problem.placed, made.warnings)
+    ? remeshWithMoves(input, options, run, knownOfMoves(problem), *problem.placed, made.warnings)
     : run(std::move(input), options);
   made.remeshed = std::move(result.remeshed);
   if (problem.symmetry)

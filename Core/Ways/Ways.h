@@ -7,6 +7,7 @@
 
 #include "Pieces/RemeshInPieces.h"
 #include "Pipeline/Pipeline.h"
+#include "Prepare/InputPlaces.h"
 #include "Requests/DrawnConstraints.h"
 #include "Symmetry/Symmetry.h"
 
@@ -75,6 +76,8 @@ struct QuadProblem
   /// What was drawn, as it lies on the surface when GivenSurface::whole has been called. Moves of irregular vertices
   /// among it are made, see remeshWithMoves. Null: nothing.
   std::vector<PlacedConstraint>* placed = nullptr;
+  /// What finds places on the surface, to be asked where something was drawn; empty: it is made.
+  std::function<const InputPlaces*()> places;
 };
 
 /// The quads, whatever the way.

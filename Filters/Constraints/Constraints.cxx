@@ -6,6 +6,7 @@
 #include "Base/Refuse.h"
 #include "Convert/ArrayNames.h"
 #include "Prepare/ConstraintPlacement.h"
+#include "Prepare/InputPlaces.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -353,9 +355,13 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   {
     return unused;
   }
-  const SurfacePlaces places(surface.input, inputs.threads);
-  const SurfacePaths paths(surface.input, inputs.threads);
-  ConstraintPlacement placement(surface.input, places, paths, inputs.sameWithin);
+  std::unique_ptr<InputPlaces> made;
+  std::unique_ptr<InputPlaces>& where = inputs.places != nullptr ? *inputs.places : made;
+  if (!where)
+  {
+    where = std::make_unique<InputPlaces>(surface.input, inputs.threads);
+  }
+  ConstraintPlacement placement(surface.input, where->places, where->paths, inputs.sameWithin);
   if (hasLines(inputs.curves))
   {
     addCurves(inputs.curves, inputs, placement);

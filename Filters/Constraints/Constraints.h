@@ -11,6 +11,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ class vtkPolyData;
 
 namespace quadrille
 {
+
+struct InputPlaces;
 
 /// Null inputs ask for nothing.
 struct ConstraintInputs
@@ -43,7 +46,9 @@ struct ConstraintInputs
   double strokeRadius = 0;
   int valence = 3;       ///< 2 to 8
   double sameWithin = 0; ///< places that are no farther apart are one, see kOnePlace
-  int threads = 1;       ///< 0: all
+  /// Of the surface; null there: they are made where they are needed. Null: nobody else needs them.
+  std::unique_ptr<InputPlaces>* places = nullptr;
+  int threads = 1; ///< 0: all
 };
 
 /// All goes to surface.input.drawn, see ConstraintPlacement: every point goes to the nearest place on the surface,

@@ -26,6 +26,7 @@ struct PreparedRun
   std::shared_ptr<BlockMemory> memory; ///< that the problem's store is part of
   QuadProblem problem;
 
+  std::shared_ptr<ReadSurface> read; ///< what lies under the converted surface
   std::optional<ConvertedSurface> converted;
   AskedConstraints asked;
   std::vector<ToldOfInputs> told;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Runs/GivenInputs.h"
 
+#include "Common/Stamps.h"
 #include "Constraints/Constraints.h"
 #include "Convert/ArrayNames.h"
 #include "Pipeline/SizedSurface.h"
@@ -10,6 +11,7 @@
 
 #include <vtkPolyData.h>
 
+#include <cstdint>
 #include <utility>
 
 namespace quadrille
@@ -56,6 +58,40 @@ void tellIgnored(const ConvertedSurface& surface, std::vector<ToldOfInputs>& tol
   }
 }
 
+/// Of what readSurface depends on.
+ResultKey keyOf(const GivenInputs& inputs)
+{
+  std::vector<Stamp> stamps;
+  addStamps(inputs.port(0), stamps);
+  KeyMaker key;
+  for (const auto& [object, time] : stamps)
+  {
+    key.add(reinterpret_cast<std::uintptr_t>(object), time);
+  }
+  return key.add(inputs.patchArray, inputs.guideArray).key();
+}
+
+ReadSurface readSurface(const GivenInputs& inputs)
+{
+  ReadSurface read{ convertSurface(inputs.port(0), inputs.patchArray, inputs.options.threads), {},
+    {}, {} };
+  if (!inputs.guideArray.empty())
+  {
+    addGuideArray(inputs.port(0), inputs.guideArray, read.converted);
+  }
+  return read;
+}
+
+/// With as much again for the tree of places, and for the prepared surface of ways between them.
+std::size_t bytesWithPlaces(const ReadSurface& read)
+{
+  constexpr std::size_t kWithPlaces = 3;
+  const SurfaceInput& input = read.converted.input;
+  return kWithPlaces *
+    (input.points.size() * sizeof(Vector3) +
+      (input.polygonOffsets.size() + input.polygonPoints.size()) * sizeof(Index));
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -74,17 +110,19 @@ void GivenInputs::detach()
 }
 
 //------------------------------------------------------------------------------
-ConvertedSurface readInputs(
-  const GivenInputs& inputs, std::vector<ToldOfInputs>& told, AskedConstraints& asked)
+ConvertedSurface readInputs(const GivenInputs& inputs, std::vector<ToldOfInputs>& told,
+  AskedConstraints& asked, ResultStore* store, std::shared_ptr<ReadSurface>* read)
 {
   vtkPolyData* data = inputs.port(0);
   const int threads = inputs.options.threads;
   tellUnusedArrays(inputs, told);
-  ConvertedSurface surface = convertSurface(data, inputs.patchArray, threads);
-  if (!inputs.guideArray.empty())
+  const std::shared_ptr<ReadSurface> known = findOrMake<ReadSurface>(
+    store, keyOf(inputs), [&] { return readSurface(inputs); }, bytesWithPlaces);
+  if (read != nullptr)
   {
-    addGuideArray(data, inputs.guideArray, surface);
+    *read = known;
   }
+  ConvertedSurface surface = known->converted;
   tellIgnored(surface, told);
   ConstraintInputs constraints;
   constraints.curves = inputs.port(1);
@@ -97,11 +135,17 @@ ConvertedSurface readInputs(
   constraints.strokeWeight = inputs.strokeWeight;
   constraints.strokeRadius = inputs.strokeRadius;
   constraints.valence = inputs.pointValence;
+  constraints.places = &known->places;
   constraints.threads = threads;
   if (constraints.points || constraints.mixed)
   {
-    constraints.sameWithin = kOnePlace *
-      targetEdgeLength(inputs.options, areaOfPolygons(surface.input), diagonalOf(surface.input));
+    if (!known->area)
+    {
+      known->area = areaOfPolygons(surface.input);
+      known->diagonal = diagonalOf(surface.input);
+    }
+    constraints.sameWithin =
+      kOnePlace * targetEdgeLength(inputs.options, *known->area, *known->diagonal);
   }
   asked.arrays =
     arrayConstraints(surface.input, [&surface](Index polygon) { return surface.cell(polygon); });

@@ -7,10 +7,14 @@
 #include "Convert/PolyData.h"
 #include "Evaluation/ConstraintWords.h"
 #include "Pipeline/Options.h"
+#include "Pipeline/ResultStore.h"
+#include "Prepare/InputPlaces.h"
 
 #include <vtkSmartPointer.h>
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,10 +46,22 @@ struct GivenInputs
   void detach();
 };
 
+/// The surface as Core has it, before anything is drawn on it.
+struct ReadSurface
+{
+  ConvertedSurface converted;
+  // The rest is made where something is drawn.
+  std::unique_ptr<InputPlaces> places;
+  std::optional<double> area; ///< of the polygons
+  std::optional<double> diagonal;
+};
+
 /// The surface with what is asked of it; asked gets the constraints of all ports. told also has what was said before
-/// an exception. Throws InvalidInput naming what is at fault.
-ConvertedSurface readInputs(
-  const GivenInputs& inputs, std::vector<ToldOfInputs>& told, AskedConstraints& asked);
+/// an exception. Where store has what an earlier call has read of the same arrays it is not read again; null: no store.
+/// read: null, or gets what lies under the surface. Throws InvalidInput naming what is at fault.
+ConvertedSurface readInputs(const GivenInputs& inputs, std::vector<ToldOfInputs>& told,
+  AskedConstraints& asked, ResultStore* store = nullptr,
+  std::shared_ptr<ReadSurface>* read = nullptr);
 
 /// What is told of a surface that Core reads by itself, without polygons and constraints.
 ConvertedSurface readForPieces(const GivenInputs& inputs, std::vector<ToldOfInputs>& told);

@@ -96,6 +96,38 @@ TEST(QuadsInBackground, TellWhatIsToldOfTheirInputs)
   EXPECT_EQ(warnings[0], warnings[1]);
 }
 
+/// What was read of a surface is read again where an array of it has changed.
+TEST(QuadsInBackground, FollowChangesOfTheSurfaceThatConstraintsLieOn)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::sphere(4));
+  vtkNew<vtkPoints> places;
+  places->InsertNextPoint(input->GetPoint(100));
+  vtkNew<vtkPolyData> valences;
+  valences->SetPoints(places);
+  vtkNew<vtkQuadRemesh> kept;
+  for (const double factor : { 1.0, 1.25, 0.5 })
+  {
+    for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+    {
+      const double* p = input->GetPoint(i);
+      input->GetPoints()->SetPoint(i, p[0], p[1], factor * p[2]);
+    }
+    input->GetPoints()->Modified();
+    vtkNew<vtkQuadRemesh> fresh;
+    for (vtkQuadRemesh* filter : { kept.Get(), fresh.Get() })
+    {
+      filter->SetInputData(input);
+      filter->SetInputData(3, valences);
+      filter->SetNumberOfQuads(400);
+    }
+    fresh->Update();
+    updateInBackground(kept);
+    EXPECT_EQ(kept->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+    EXPECT_EQ(placesOf(fresh->GetOutput()), placesOf(kept->GetOutput()));
+    EXPECT_EQ(placesOf(fresh->GetConstraints()), placesOf(kept->GetConstraints()));
+  }
+}
+
 TEST(QuadsInBackground, DoNotReadWhatThePipelineChangesMeanwhile)
 {
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(200, 100));

@@ -44,6 +44,11 @@ try:
     check(list(colours.Annotations) == ["0", "not met", "1", "met"], f"the legend has {colours.Annotations}")
     red, green = colours.IndexedColors[0:3], colours.IndexedColors[3:6]
     check(red[0] > 0.5 > red[1] and green[1] > 0.5 > green[0], f"not met and met are coloured {red} and {green}")
+    # A colour that is chosen instead stays.
+    simple.ColorBy(constraints, None)
+    quads.Constraints = [QuadValence(Point=[0, 0, 12], Valence=3)]
+    simple.Render(view)
+    check(not constraints.ColorArrayName[1], f"a solid colour came back as {constraints.ColorArrayName}")
     # The measures of a map open no spreadsheets, and colour the surface.
     levels = DecimationHierarchy(registrationName="levels", Input=part, TargetType="Number Of Quads",
                                  NumberOfQuads=2000)

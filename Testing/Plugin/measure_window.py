@@ -6,7 +6,8 @@
 
 A timer in the window (QUADRILLE_WINDOW_PAUSES) writes each time in which no events were taken up. Each walk is done by
 the mouse; for each the longest of these times is printed, and how many were longer than 0.3 s. While a ball or a handle
-is dragged it is counted how many pictures with other quads there were. No test of ctest, as it measures time.
+is dragged it is counted how many pictures with other quads there were, and how long the window's threads have worked
+for each, which other programs change less. No test of ctest, as it measures time.
 """
 import argparse
 import math
@@ -41,6 +42,11 @@ class Session(test_draw.Session):
               f"{' (' + ', '.join(f'{length:.2f}/{work:.2f}' for length, work in long[:6]) + ')' if long else ''}",
               flush=True)
 
+    def work(self):
+        """Seconds that the threads of the window's process have worked so far, those for the picture, too."""
+        numbers = pathlib.Path(f"/proc/{self.paraview.pid}/stat").read_text(encoding="ascii").rsplit(")", 1)[1].split()
+        return (int(numbers[11]) + int(numbers[12])) / os.sysconf("SC_CLK_TCK")
+
     def watch(self):
         """Notes each picture of the view: when it was, and which quads it shows."""
         self.ask("pictures = []\n"
@@ -59,7 +65,10 @@ class Session(test_draw.Session):
             words += ["mousemove", *self.screen(pixel), "sleep", pause]
         self.xdotool("mousemove", *self.screen(pixels[0]), "sleep", 0.3)
         begin = time.time()
-        self.xdotool("mousedown", 1, "sleep", 0.05, *words)
+        self.xdotool("mousedown", 1, "sleep", 0.05)
+        worked = self.work()
+        self.xdotool(*words)
+        worked = self.work() - worked
         end = time.time()
         self.longest(begin, end, f"{what}, button down")
         time.sleep(0.3)
@@ -70,7 +79,7 @@ class Session(test_draw.Session):
         pictures = [p for p in self.value("pictures") if begin < p[0] < end + 0.3]
         kinds = {p[1] for p in pictures}
         print(f"{what}: {len(pictures)} pictures, {len(kinds)} meshes in {end - begin:.2f} s: "
-              f"{len(kinds) / (end - begin):.1f} a second", flush=True)
+              f"{len(kinds) / (end - begin):.1f} a second; {worked / len(kinds):.3f} s of work a mesh", flush=True)
 
 
 def arc(start, goal, count):

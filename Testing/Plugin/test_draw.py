@@ -286,6 +286,8 @@ def try_tool(session, name, chance, count):
         outcomes.append(outcome)
         print(f"{name} {number + 1}: {outcome.off:.3f} edge lengths off, met {outcome.met}; {outcome.text}"
               f"{'' if outcome.is_good() else '  BAD'}", flush=True)
+        if not outcome.is_good():
+            print(f"  drawn: {session.drawn()}", flush=True)
         if number < 2 or not outcome.is_good():
             session.shot(f"draw-{session.surface.stem}-{name.lower()}-{number + 1}")
     session.xdotool("key", "Escape")
@@ -546,10 +548,13 @@ def check_close(session):
         session.xdotool("mousemove", *FILE_MENU, "click", 1, "sleep", 0.5, "key", "d", "sleep", 0.5, "key", "Return")
     else:
         session.xdotool("mousemove", *CLOSE_VIEW, "sleep", 0.2, "click", 1)
-    time.sleep(3)
+    for _ in range(8 if session.remote else 1):  # to leave a server takes seconds on a busy machine
+        time.sleep(3)
+        grey = [saturation(session, name) for name in TOOLS]
+        if max(grey) < 30:
+            break
     session.shot("draw-closed")
     lives = session.paraview.poll() is None
-    grey = [saturation(session, name) for name in TOOLS]
     print(f"{'left the server' if session.remote else 'closed the view'} with a tool on: lives {lives}, tools {grey}")
     return not (lives and (max(grey) < 30 or not session.remote))
 

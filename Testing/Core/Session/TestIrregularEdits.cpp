@@ -298,6 +298,24 @@ TEST_F(IrregularEditsOnAPart, AllOthersStay)
   }
 }
 
+/// Where a vertex of a feature looks irregular the nearest one inside is not what is meant.
+TEST_F(IrregularEditsOnAPart, VerticesOfFeaturesDoNotMove)
+{
+  ASSERT_FALSE(session_->result()->fixed.edges.empty());
+  const Vector3 corner = session_->result()->fixed.edges.front()[0];
+  try
+  {
+    session_->add(
+      IrregularEdit{ IrregularOperation::Move, { corner, from_.place }, {}, {}, {}, {} });
+    ADD_FAILURE() << "an irregular vertex inside was taken for the corner";
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("whose vertices stay"), std::string::npos)
+      << error.what();
+  }
+}
+
 /// Between features the sum of indices is what it is.
 TEST_F(IrregularEditsOnAPart, TheWordOnAMoveAcrossAFeatureTellsWhatItChanges)
 {

@@ -194,6 +194,47 @@ TEST(Ways, MovesHoldIrregularVerticesOnTheWholeSurface)
   EXPECT_EQ(placed.front().valence, *irregular);
 }
 
+/// Of the quads without moves an earlier run may have left all that is needed, if nothing else has changed.
+TEST(Ways, MovesAreTheSameWithAStore)
+{
+  SurfaceInput surface = toInput(sphere(4));
+  SurfaceInput none;
+  QuadProblem problem = problemOf(none);
+  const QuadsMade before = expectWay(surface, Way::Whole, problem);
+  const std::vector<int>& valence = before.remeshed.quads.valence;
+  const auto irregular = std::find_if(
+    valence.begin(), valence.end(), [](int edges) { return edges != kRegularValence; });
+  ASSERT_NE(irregular, valence.end());
+  const Vector3 from =
+    before.remeshed.quads.points[static_cast<std::size_t>(irregular - valence.begin())];
+  ResultStore store(std::size_t{ 1 } << 28);
+  const auto expectSame = [&](double share)
+  {
+    std::vector<Vector3> points[2];
+    for (ResultStore* with : { &store, static_cast<ResultStore*>(nullptr) })
+    {
+      std::vector<PlacedConstraint> placed{ moveOnSphere(from) };
+      placed.front().path[1] = (from + share * from.unitOrthogonal()).normalized();
+      problem.placed = &placed;
+      problem.store = with;
+      points[with == nullptr ? 1 : 0] =
+        expectWay(surface, Way::Whole, problem).remeshed.quads.points;
+      EXPECT_EQ(placed.front().whyNot, "");
+    }
+    EXPECT_EQ(points[0], points[1]);
+    return points[0];
+  };
+  const std::vector<Vector3> first = expectSame(0.15);
+  EXPECT_NE(expectSame(0.25), first);
+  problem.options.quads = 300;
+  EXPECT_NE(expectSame(0.15).size(), first.size());
+  problem.options.quads = 200;
+  surface.drawn.sizes = { { -from, 0.3, 0.5, 0 } };
+  EXPECT_NE(expectSame(0.15).size(), first.size());
+  surface.drawn.sizes.clear();
+  EXPECT_EQ(expectSame(0.15), first);
+}
+
 TEST(Ways, MovesHaveAnImageToo)
 {
   const SurfaceInput surface = toInput(sphere(4));
