@@ -3,7 +3,7 @@
 """The drawing tools in ParaView's real window, under openbox at its defaults, by the mouse at random places.
 
   test_draw.py XVFB PARAVIEW PVPYTHON OPENBOX [--tools NAME...] [--places N] [--surface FILE...] [--seed N]
-               [--checks NAME...] [--server WORD...]
+               [--quads N] [--checks NAME...] [--server WORD...]
 
 Opens each surface and makes quads by keyboard. With each tool so many random places, or paths, are drawn where the
 surface is clearly seen. Then the constraint, and the quads, are compared with the places under the mouse, which rays
@@ -620,6 +620,7 @@ def main():
     parser.add_argument("--checks", nargs="*", choices=[*CHECKS, "trace"], default=[*CHECKS, "trace"])
     parser.add_argument("--server", nargs="+", default=())
     parser.add_argument("--places", type=int, default=20)
+    parser.add_argument("--quads", type=int, help="fewer show more balls clearly where the surface fills the view")
     parser.add_argument("--seed", type=int, default=35)
     parser.add_argument("--surface", nargs="+", type=pathlib.Path, default=[test_places.SURFACE])
     options = parser.parse_args()
@@ -632,7 +633,7 @@ def main():
             session.surface = surface
             try:
                 session.start()
-                session.open()
+                session.open(options.quads)
                 session.find_tools()
                 for name in options.tools:
                     wrong = try_tool(session, name, random.Random(options.seed), options.places)
