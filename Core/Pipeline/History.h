@@ -45,7 +45,7 @@ public:
   std::size_t failedBefore() const;
 
   /// The attempt that has quads, of several the one with the fewest that are inverted: a later one counts only where
-  /// it has at most half as many, as what it gave up has a price. Without any, that of the last round.
+  /// it has at most half as many, as what it changed has a price. Without any, that of the last round.
   const Attempt& result() const { return result_.quads ? result_ : last_; }
   bool hasResult() const { return result_.quads != nullptr; }
 
@@ -53,7 +53,7 @@ public:
   std::size_t attempts() const { return attemptsBefore_ + steps_.size(); }
   const WorkBound& bound() const { return bound_; }
   /// Whether no attempt may begin any more. Where there are quads, or a map that they can be made of, half of
-  /// what the last one took has to be left, as what was given up or kept often makes another one shorter.
+  /// what the last one took has to be left, as what was kept often makes another one shorter.
   bool isSpent() const;
   /// From now on what was reserved for the last resort may be spent.
   void beginLastResort();
