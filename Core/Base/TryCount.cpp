@@ -20,6 +20,8 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
   { "pipeline", "more quads", "as many quads as go three times round the shortest loop", "1" },
   { "pipeline", "counterparts",
     "three more irregular vertices beside each that was asked for near a failure", "1" },
+  { "pipeline", "fewer features", "detected features near the places of a failure are given up",
+    "4" },
   { "pipeline", "fewer details", "details that had been left are cut, and all begins again", "1" },
   { "pipeline", "components",
     "each connected component without a map is a run of its own, and so is the rest",

@@ -20,6 +20,7 @@ enum class Try : std::uint8_t
   KeptDefects,
   MoreQuads,
   Counterparts,
+  FewerFeatures,
   FewerDetails,
   Components,
   FilledFaces,

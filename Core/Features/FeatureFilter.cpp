@@ -437,6 +437,30 @@ bool isDetectedFeature(const Mesh& mesh, Index h)
     (mesh.flags[h] & kRequestedFeature) == 0;
 }
 
+std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& points, double radius)
+{
+  if (!(radius > 0))
+  {
+    throw InvalidInput("the radius for removing features must be positive");
+  }
+  std::vector<Index> found;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!isDetectedFeature(mesh, h))
+    {
+      continue;
+    }
+    const Vector3& a = mesh.position[mesh.origin[h]];
+    const Vector3& b = mesh.position[mesh.target(h)];
+    if (std::any_of(points.begin(), points.end(),
+          [&](const Vector3& p) { return distanceToSegment(p, a, b) < radius; }))
+    {
+      found.push_back(h);
+    }
+  }
+  return found;
+}
+
 std::vector<ClearedFeature> clearFeatures(
   Mesh& mesh, const std::vector<Vector3>& places, double within)
 {

@@ -30,6 +30,11 @@ FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double smallest, int th
 bool hasDetectedFeature(const Mesh& mesh);
 /// Whether h is that half-edge of a feature that stands for it, and nobody asked for the feature (kRequestedFeature).
 bool isDetectedFeature(const Mesh& mesh, Index h);
+/// The half-edges that stand for detected features (see isDetectedFeature) and come closer than `radius` to one of the
+/// points. Throws InvalidInput when radius is not positive.
+std::vector<Index> featuresNear(
+  const Mesh& mesh, const std::vector<Vector3>& points, double radius);
+
 /// What became of a place where a user wants no feature.
 struct ClearedFeature
 {

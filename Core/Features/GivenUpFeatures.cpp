@@ -103,6 +103,8 @@ const char* nameOf(FeatureLoss reason)
       return "no crease";
     case FeatureLoss::SharpCorner:
       return "sharp corner";
+    case FeatureLoss::FailedMap:
+      return "failed map";
     case FeatureLoss::MidLine:
       return "mid-line";
     default:
@@ -174,6 +176,8 @@ const char* whyNotFollowed(FeatureLoss reason)
       return "not followed: its curve is no crease as a whole";
     case FeatureLoss::SharpCorner:
       return "not followed: it leaves another one at too small an angle for a quad";
+    case FeatureLoss::FailedMap:
+      return "not followed: with it there was no map, or no quads";
     case FeatureLoss::MidLine:
       return "not followed: it lies in the mirror plane, which quads straddle";
     default:

@@ -480,6 +480,13 @@ bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
   return std::any_of(labels.begin(), labels.end(), [](Index label) { return label > 0; });
 }
 
+bool keepsFeatures(const PreparedSurface& surface)
+{
+  return surface.facets.isDesigned ||
+    std::any_of(surface.mesh.flags.begin(), surface.mesh.flags.end(),
+      [](std::uint8_t flags) { return (flags & kRequestedFeature) != 0; });
+}
+
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history)
 {

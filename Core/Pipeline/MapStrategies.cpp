@@ -83,7 +83,8 @@ std::optional<Plan> moreFreedom(const AttemptFailure& failure)
   {
     return std::nullopt;
   }
-  if (isCutAtFaces(*failure.run.surface.surface, failure.run.options, history) &&
+  if (keepsFeatures(*failure.surface) &&
+    isCutAtFaces(*failure.run.surface.surface, failure.run.options, history) &&
     (times > 0 ||
       (!history.failedFaces().empty() &&
         shareOfFailed(*failure.run.surface.surface, history.failedFaces()) <= kLittleArea)))

@@ -26,6 +26,13 @@ struct LevelPlan
   double edgeLength = 1;       ///< over that of the quads
 };
 
+/// A place near which features were given up.
+struct FeatureDrop
+{
+  Vector3 place;
+  double radius;
+};
+
 struct Plan
 {
   const char* step =
@@ -40,8 +47,11 @@ struct Plan
   LevelPlan nextLevels;
 
   // Of the surface, see withPlan.
-  std::shared_ptr<const std::vector<float>> sizes; ///< #V; null: those of the surface
+  std::shared_ptr<const std::vector<float>> sizes;           ///< #V; null: those of the surface
+  std::shared_ptr<const std::vector<Index>> featuresGivenUp; ///< half-edges; null: none
   std::shared_ptr<const std::vector<ValenceRequest>> counterparts; ///< more of them; null: none
+  int featureDrops = 0;             ///< how often features were given up
+  std::vector<FeatureDrop> dropped; ///< where
 
   // Of the map.
   double quads = 0; ///< that it is scaled to

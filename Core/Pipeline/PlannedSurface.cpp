@@ -3,6 +3,8 @@
 #include "Pipeline/PlannedSurface.h"
 
 #include "Base/Lists.h"
+#include "Features/FeatureFilter.h"
+#include "Mesh/ContentHash.h"
 #include "Mesh/FlatSources.h"
 #include "Mesh/Sizing.h"
 
@@ -68,25 +70,34 @@ PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, Resul
 
 PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan)
 {
-  if (!plan.sizes && !plan.counterparts)
+  if (!plan.sizes && !plan.featuresGivenUp && !plan.counterparts)
   {
     return surface;
   }
   PreparedSurface planned = *surface;
   Mesh& mesh = planned.mesh;
   KeyMaker key(surface.key);
+  KeyMaker stars(surface.starsKey);
+  if (plan.featuresGivenUp)
+  {
+    unmarkFeatures(mesh, *plan.featuresGivenUp);
+    key.add(*plan.featuresGivenUp);
+    stars.add(*plan.featuresGivenUp);
+    planned.hash = contentHash(mesh, 1);
+  }
   if (plan.counterparts)
   {
     append(planned.valenceRequests, *plan.counterparts);
     sortByVertex(planned.valenceRequests);
   }
+  const ResultKey keyWithoutSizes = key.key();
   if (plan.sizes)
   {
     mesh.sizing = *plan.sizes;
     key.add(*plan.sizes);
   }
-  return { std::make_shared<const PreparedSurface>(std::move(planned)), key.key(), surface.key,
-    surface.sizesBefore, surface.starsKey, surface.own };
+  return { std::make_shared<const PreparedSurface>(std::move(planned)), key.key(), keyWithoutSizes,
+    surface.sizesBefore, stars.key(), surface.own };
 }
 
 } // namespace quadrille

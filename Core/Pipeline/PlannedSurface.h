@@ -29,7 +29,8 @@ struct PlannedSurface
   ResultKey key = 0;              ///< guides and valences left aside
   ResultKey keyWithoutSizes = 0;  ///< as if the plan had no sizes
   SharedArray<float> sizesBefore; ///< those without the plan
-  /// Of the surface to which vertices and features were added without a change of shape; its own where none were.
+  /// Of the surface to which vertices and features were added without a change of shape, and those that it does not
+  /// have; its own where none were.
   ResultKey starsKey = 0;
   OwnVertices own;
 
@@ -40,7 +41,7 @@ struct PlannedSurface
 /// The surface as it is. key: of it.
 PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, ResultKey key);
 
-/// With the sizes and irregular vertices of the plan. surface: without a plan.
+/// With the sizes and irregular vertices of the plan, without the features that it gives up. surface: without a plan.
 PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan);
 
 } // namespace quadrille

@@ -25,8 +25,9 @@ constexpr std::array<Strategy, 3> kForMaps{ {
   { Try::RoomForCurves, 1, roomForCurves },
   { Try::KeptDefects, 2, keptDefects },
 } };
-constexpr std::array<Strategy, 1> kForRounds{ {
+constexpr std::array<Strategy, 2> kForRounds{ {
   { Try::Counterparts, 1, withCounterparts },
+  { Try::FewerFeatures, kMostFeatureDrops, fewerFeatures },
 } };
 
 /// Where no round has quads and none of the others is left, or may be tried any more.
@@ -88,7 +89,7 @@ std::optional<AttemptFailure> failureOfRound(RunContext& run, const History& his
   return AttemptFailure{ run, history, attempt, withPlan(run.surface, attempt.plan),
     mapped ? positionsOf(run.surface->mesh, attempt.map->transfer.defectVertices)
            : attempt.map->failedPlaces,
-    0 };
+    !hasQuads, 0 };
 }
 
 } // namespace
@@ -106,7 +107,7 @@ std::optional<Plan> nextMapPlan(RunContext& run, const History& history)
     return std::nullopt;
   }
   const Attempt& attempt = history.last();
-  AttemptFailure failure{ run, history, attempt, withPlan(run.surface, attempt.plan), {}, 0 };
+  AttemptFailure failure{ run, history, attempt, withPlan(run.surface, attempt.plan), {}, true, 0 };
   return firstOffer(kForMaps, failure);
 }
 

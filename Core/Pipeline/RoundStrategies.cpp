@@ -4,6 +4,8 @@
 
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
+#include "Features/FeatureFilter.h"
+#include "Pipeline/FaceDivision.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/SmallParts.h"
 #include "Requests/Counterparts.h"
@@ -19,6 +21,9 @@ namespace quadrille
 {
 namespace
 {
+
+/// Features are given up within this part of the edge length the first time, then twice as far each time.
+constexpr double kFirstFeatureDrop = 0.5;
 
 /// Edge lengths between irregular vertices that are put beside one.
 constexpr double kSideOfCounterparts = 3;
@@ -56,6 +61,55 @@ Plan fromTheBeginning(const RunContext& run, Plan plan)
   plan.levels = firstLevels(run);
   plan.nextLevels = plan.levels;
   return plan;
+}
+
+void giveUp(const std::vector<Index>& features, Plan& plan)
+{
+  auto all = plan.featuresGivenUp ? std::make_shared<std::vector<Index>>(*plan.featuresGivenUp)
+                                  : std::make_shared<std::vector<Index>>();
+  all->insert(all->end(), features.begin(), features.end());
+  plan.featuresGivenUp = std::move(all);
+}
+
+/// How far round each of the places features are given up: half an edge length where it has not failed before, else
+/// twice as far as then.
+std::vector<FeatureDrop> dropsAt(const AttemptFailure& failure, const std::vector<Vector3>& places)
+{
+  const Plan& plan = failure.attempt.plan;
+  std::vector<FeatureDrop> drops;
+  if (static_cast<std::size_t>(plan.featureDrops) >= kMostFeatureDrops && !failure.withoutQuads)
+  {
+    return drops;
+  }
+  for (const Vector3& place : places)
+  {
+    double radius = kFirstFeatureDrop * failure.run.edgeLength;
+    for (const FeatureDrop& before : plan.dropped)
+    {
+      const double twice = 2 * before.radius;
+      radius = (place - before.place).norm() <= twice ? std::max(radius, twice) : radius;
+    }
+    drops.push_back({ place, radius });
+  }
+  return drops;
+}
+
+/// The features that go then.
+std::vector<Index> featuresNear(
+  const AttemptFailure& failure, const std::vector<FeatureDrop>& drops)
+{
+  std::vector<Index> features;
+  std::map<double, std::vector<Vector3>> byRadius;
+  for (const FeatureDrop& drop : drops)
+  {
+    byRadius[drop.radius].push_back(drop.place);
+  }
+  for (const auto& [radius, places] : byRadius)
+  {
+    append(features, featuresNear(failure.surface->mesh, places, radius));
+  }
+  sortUnique(features);
+  return features;
 }
 
 /// As many as go three times round the shortest loop, where details are to be resolved; 0: edges would be too short, or
@@ -157,6 +211,40 @@ std::optional<Plan> withCounterparts(const AttemptFailure& failure)
     std::to_string(more.size()) + " others were put beside what was asked for" + nearText(places) +
     "; add a vertex of the opposite valence where it may be, to have fewer");
   plan.counterparts = std::make_shared<const std::vector<ValenceRequest>>(std::move(more));
+  return plan;
+}
+
+std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
+{
+  if (keepsFeatures(*failure.surface) || isTooLarge(failure.attempt))
+  {
+    return std::nullopt;
+  }
+  Plan plan = newRound(failure.attempt.plan);
+  std::vector<FeatureDrop> drops = dropsAt(failure, failure.places);
+  std::vector<Index> features = featuresNear(failure, drops);
+  const double farthest = failure.surface->boundingBoxDiagonal;
+  while (
+    failure.withoutQuads && features.empty() && !drops.empty() && drops.front().radius < farthest)
+  {
+    for (FeatureDrop& drop : drops)
+    {
+      drop.radius *= 2;
+    }
+    features = featuresNear(failure, drops);
+  }
+  if (features.empty())
+  {
+    return std::nullopt;
+  }
+  ++plan.featureDrops;
+  append(plan.dropped, drops);
+  giveUp(features, plan);
+  plan.notices.push_back(std::to_string(features.size()) + " sharp edges" +
+    nearText(failure.places) +
+    " leave no room for quads of this edge length and were not used as features; ask for more "
+    "quads for them to be "
+    "followed");
   return plan;
 }
 

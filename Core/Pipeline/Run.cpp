@@ -85,7 +85,8 @@ void makeQuadsOfRound(RunContext& run, History& history)
 /// Whether what has no quads is made in parts: components, or faces between features.
 bool isLeftToParts(const SizedSurface& sized, const RemeshOptions& options, const History& history)
 {
-  return isDivided(sized, history) || isCutAtFaces(*sized.surface, options, history);
+  return isDivided(sized, history) ||
+    (keepsFeatures(*sized.surface) && isCutAtFaces(*sized.surface, options, history));
 }
 
 /// Rounds of attempts until one is good or nothing is left to try: maps until one is good or no other would be better,

@@ -56,6 +56,22 @@ void takeAttempt(const Attempt& attempt, const RemeshOptions& options, RemeshRes
     options.knownMap != 0 && result.mapKey == options.knownMap && !options.warmStart;
 }
 
+/// The features that a plan has given up, which is on the surface.
+void addGivenUp(
+  const Plan& plan, const Mesh& mesh, double edgeLength, std::vector<GivenUpCurve>& givenUp)
+{
+  if (!plan.featuresGivenUp)
+  {
+    return;
+  }
+  std::vector<Index> edges = *plan.featuresGivenUp;
+  sortUnique(edges);
+  for (const GivenUpCurve& curve : givenUpCurves(mesh, edges, edgeLength, FeatureLoss::FailedMap))
+  {
+    givenUp.push_back(curve);
+  }
+}
+
 /// Where nothing has quads.
 void noteFailed(const Attempt& attempt, const Mesh& mesh, RemeshResult& result)
 {
@@ -167,6 +183,7 @@ void takeAttempts(const History& history, RunContext& run, const Frame& frame,
     attempt.map->unpack(sized.surface->mesh);
   }
   takeAttempt(attempt, options, result);
+  addGivenUp(attempt.plan, sized.surface->mesh, sized.edgeLength, result.givenUpFeatures);
   noteFailed(attempt, sized.surface->mesh, result);
   tellEnd(history, result);
   tellAttempt(attempt,

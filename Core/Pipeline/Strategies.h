@@ -14,6 +14,9 @@
 namespace quadrille
 {
 
+/// How often features are given up for quads that are inverted.
+constexpr std::size_t kMostFeatureDrops = 4;
+
 /// What there is to mend: an attempt without quads, or with some that are inverted at folds of its map.
 struct AttemptFailure
 {
@@ -22,6 +25,7 @@ struct AttemptFailure
   const Attempt& attempt;      ///< of the round
   PlannedSurface surface;      ///< by its plan
   std::vector<Vector3> places; ///< where the map or its quads failed
+  bool withoutQuads = true;    ///< else some of them are inverted
   std::size_t bound = 0;       ///< of the strategy that is asked
 };
 
@@ -47,6 +51,11 @@ std::optional<Plan> keptDefects(const AttemptFailure& failure);
 /// Irregular vertices that were asked for near the places of a failure get counterparts (see Requests/Counterparts.h).
 /// Not where the others are asked for as well. Bound: times in all.
 std::optional<Plan> withCounterparts(const AttemptFailure& failure);
+
+/// Detected features near the places of a failure are given up, twice as far as the last time where a place fails
+/// again, and after a failure so far that there are some. Not where features stay, see keepsFeatures. Bound: times in
+/// all, for quads that are inverted.
+std::optional<Plan> fewerFeatures(const AttemptFailure& failure);
 
 /// Where nothing else has led to quads, and those of a valid map touch themselves, as round a thin part: twice as many
 /// everywhere; where small details are to be resolved, at once as many as go three times round the shortest loop,

@@ -302,13 +302,20 @@ class Formats(Case):
 
 class ExitCodes(Case):
     def write_two_parts(self):
-        """A torus, and one all of whose edges are borders of patches, which few quads cannot follow."""
+        """A torus, and one with a tree of features through all its points, which few quads cannot follow."""
         path = self.folder / "parts.vtk"
         points, faces = torus()
         count = len(points)
         both = points + [(x + 20, y, z) for x, y, z in points]
         polygons = faces + [tuple(i + count for i in f) for f in faces]
-        bits = [0] * len(faces) + [7] * len(faces)
+        reached, tree = {faces[0][0]}, [0] * len(faces)
+        while len(reached) < count:
+            for f, corners in enumerate(faces):
+                for i, (a, b) in enumerate(zip(corners, corners[1:] + corners[:1])):
+                    if a in reached and b not in reached:
+                        reached.add(b)
+                        tree[f] |= 1 << i
+        bits = [0] * len(faces) + tree
         path.write_text("# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET POLYDATA\nPOINTS %d double\n" % len(both)
                         + "".join("%.9g %.9g %.9g\n" % p for p in both)
                         + "POLYGONS %d %d\n" % (len(polygons), 4 * len(polygons))

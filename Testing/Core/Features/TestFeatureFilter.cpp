@@ -238,6 +238,23 @@ TEST(FeatureFilter, OfTwoThinBandsSideBySideTheMiddleCurveMayGo)
   EXPECT_EQ(featureEdges(mesh), 80u);
 }
 
+TEST(FeatureFilter, NearAPlaceOnlyDetectedFeaturesGo)
+{
+  Mesh mesh = test::gridPlane(20, 6);
+  markRow(mesh, 2, 0, 20, kDetected);
+  markRow(mesh, 4, 0, 20, kFeatureEdge | kRequestedFeature);
+  // The row at y = 2 is 0.5 away; edges [7, 8] to [11, 12] come closer than 2.2 to (9.5, 2.5).
+  const std::vector<Index> near = featuresNear(mesh, { Vector3(9.5, 2.5, 0) }, 2.2);
+  EXPECT_EQ(near.size(), 5u);
+  unmarkFeatures(mesh, near);
+  EXPECT_EQ(featureEdges(mesh), 35u);
+  EXPECT_TRUE(featuresNear(mesh, { Vector3(9.5, 2.5, 0) }, 2.2).empty());
+  EXPECT_TRUE(featuresNear(mesh, {}, 100).empty());
+  // Boundaries are no features.
+  EXPECT_EQ(featuresNear(mesh, { Vector3(10, 3, 0) }, 100).size(), 15u);
+  EXPECT_THROW(featuresNear(mesh, {}, 0), InvalidInput);
+}
+
 TEST(ClearFeatures, TakesTheCurveNearestToAPlaceAndNoOther)
 {
   Mesh mesh = test::markFeatures(test::unitCube(6), 0.5);

@@ -337,9 +337,9 @@ TEST(ThinnedSurface, WhatIsLeftOutIsToldByPolygonsOfTheInput)
 {
   SurfaceInput input = toInput(disjointUnion(sphere(5), sphere(3), Vector3(3, 0, 0)));
   const std::size_t fine = toInput(sphere(5)).polygonOffsets.size() - 1;
-  input.featureEdges.assign(input.polygonOffsets.size() - 1, 0);
-  std::fill(
-    input.featureEdges.begin() + static_cast<std::ptrdiff_t>(fine), input.featureEdges.end(), 7);
+  input.featureEdges.assign(fine, 0);
+  const std::vector<std::uint8_t> tree = spanningTree(sphere(3));
+  input.featureEdges.insert(input.featureEdges.end(), tree.begin(), tree.end());
   RemeshOptions options = askForQuads(40);
   EXPECT_FALSE(remeshThinned(input, options).remeshed.status.ok());
   options.leavesOutFailed = true;

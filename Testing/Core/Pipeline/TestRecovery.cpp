@@ -113,8 +113,8 @@ std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centre
 TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
-    std::vector<std::string>(
-      { "more freedom", "room for curves", "kept defects", "counterparts", "more quads" }));
+    std::vector<std::string>({ "more freedom", "room for curves", "kept defects", "counterparts",
+      "fewer features", "more quads" }));
 }
 
 // The plan that a run begins with.
@@ -544,6 +544,157 @@ TEST(Recovery, MoreQuadsDoubleThemWhereTheyTouchThemselves)
       std::string::npos);
   }
   EXPECT_FALSE(run.nextAfter(plan, carriedMap(0), touching, true));
+}
+
+// Features that nobody asked for.
+
+/// A unit cube whose edges are features, with edges of 1/8 and quads of twice that; not known as designed.
+struct ScanRun : TestRun
+{
+  explicit ScanRun(const SurfaceInput& input = test::toInput(test::unitCube(8)))
+    : TestRun(input, 0.25, 0.7)
+  {
+    setDesigned(false);
+  }
+  void setDesigned(bool isDesigned)
+  {
+    const_cast<PreparedSurface&>(*context.surface.surface).facets.isDesigned = isDesigned;
+  }
+  /// On an edge of the cube, in its middle.
+  Index onEdge() const { return vertexAt({ 0.5, 0, 0 }); }
+  Index inFace() const { return vertexAt({ 0.5, 0.5, 0 }); }
+};
+
+/// A failure of the quads of a map with defects at these vertices.
+std::shared_ptr<MapAttempt> mapWithFoldsAt(std::vector<Index> vertices)
+{
+  auto map = carriedMap(1);
+  map->transfer.defectVertices = std::move(vertices);
+  return map;
+}
+
+/// The middles of the features that a plan gives up, by their x.
+std::vector<double> givenUpAt(const TestRun& run, const Plan& plan)
+{
+  EXPECT_TRUE(plan.featuresGivenUp);
+  if (!plan.featuresGivenUp)
+  {
+    return {};
+  }
+  std::vector<double> middles;
+  for (const Index h : *plan.featuresGivenUp)
+  {
+    const Vector3 p =
+      (run.mesh().position[run.mesh().origin[h]] + run.mesh().position[run.mesh().target(h)]) / 2;
+    EXPECT_EQ(p.y(), 0);
+    EXPECT_EQ(p.z(), 0);
+    middles.push_back(p.x());
+  }
+  std::sort(middles.begin(), middles.end());
+  return middles;
+}
+
+TEST(Recovery, FewerFeaturesGivesThemUpNearThePlacesFurtherEachTime)
+{
+  ScanRun run;
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  const std::optional<Plan> first = run.nextAfter(run.first(), map, failedQuads());
+  expectStep(first, "fewer features");
+  EXPECT_EQ(givenUpAt(run, *first), std::vector<double>({ 0.4375, 0.5625 }));
+  EXPECT_EQ(first->featureDrops, 1);
+  ASSERT_EQ(first->notices.size(), 1U);
+  EXPECT_EQ(first->notices[0].find("2 sharp edges near (0.5, 0, 0) "), 0U) << first->notices[0];
+  const std::optional<Plan> second = run.nextAfter(*first, map, failedQuads());
+  expectStep(second, "fewer features");
+  EXPECT_EQ(givenUpAt(run, *second), std::vector<double>({ 0.3125, 0.4375, 0.5625, 0.6875 }));
+  EXPECT_EQ(second->featureDrops, 2);
+  EXPECT_EQ(second->notices.size(), 2U);
+  // On the surface they are features no more, and are again for a plan that gives up none.
+  const Index h = second->featuresGivenUp->front();
+  const auto isFeature = [&](const Mesh& mesh)
+  { return std::pair(mesh.isFeature(h), mesh.isFeature(mesh.twin[h])); };
+  EXPECT_EQ(isFeature(run.planned(*second)->mesh), std::pair(false, false));
+  EXPECT_EQ(isFeature(run.planned(run.first())->mesh), std::pair(true, true));
+}
+
+TEST(Recovery, FewerFeaturesAreForThePlacesOfACoarseFailureToo)
+{
+  ScanRun run;
+  const auto failed = failedMap();
+  failed->hopeless = true;
+  EXPECT_FALSE(run.nextAfter(run.first(), failed));
+  failed->failedPlaces = { Vector3(0.5, 0, 0) };
+  const std::optional<Plan> next = run.nextAfter(run.first(), failed);
+  expectStep(next, "fewer features");
+  EXPECT_EQ(givenUpAt(run, *next), std::vector<double>({ 0.4375, 0.5625 }));
+}
+
+TEST(Recovery, FewerFeaturesBeginAnewAtAnotherPlace)
+{
+  ScanRun run;
+  const Vector3 other(1, 1, 0.5);
+  Plan plan = run.first();
+  for (int i = 0; i < 2; ++i)
+  {
+    plan = *run.nextAfter(plan, mapWithFoldsAt({ run.onEdge() }), failedQuads());
+  }
+  ASSERT_EQ(plan.dropped.size(), 2U);
+  EXPECT_EQ(plan.dropped[1].radius, 2 * plan.dropped[0].radius);
+  const std::size_t before = plan.featuresGivenUp->size();
+  plan = *run.nextAfter(plan, mapWithFoldsAt({ run.vertexAt(other) }), failedQuads());
+  ASSERT_EQ(plan.dropped.size(), 3U);
+  EXPECT_EQ(plan.dropped[2].place, other);
+  EXPECT_EQ(plan.dropped[2].radius, plan.dropped[0].radius);
+  EXPECT_EQ(plan.featuresGivenUp->size(), before + 2);
+}
+
+TEST(Recovery, FewerFeaturesReachUntilThereIsOne)
+{
+  ScanRun run;
+  const auto map = mapWithFoldsAt({ run.inFace() });
+  const std::optional<Plan> failed = run.nextAfter(run.first(), map, failedQuads());
+  expectStep(failed, "fewer features");
+  // The edges of one side are half its width away.
+  EXPECT_GT(failed->dropped[0].radius, 0.5);
+  EXPECT_FALSE(run.nextAfter(run.first(), map, quadsWith(1)));
+}
+
+TEST(Recovery, FewerFeaturesForQuadsAtFoldsEndAfterFourTimes)
+{
+  ScanRun run;
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  Plan plan = run.first();
+  plan.featureDrops = 3;
+  EXPECT_TRUE(run.nextAfter(plan, map, quadsWith(1)));
+  plan.featureDrops = 4;
+  EXPECT_FALSE(run.nextAfter(plan, map, quadsWith(1)));
+  EXPECT_TRUE(run.nextAfter(plan, map, failedQuads()));
+}
+
+TEST(Recovery, FewerFeaturesAreNoHelpAgainstALimitOfQuads)
+{
+  ScanRun run;
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  EXPECT_FALSE(run.nextAfter(run.first(), map, failedQuads(StatusCode::TooLarge)));
+  const auto failed = failedMap();
+  failed->failedPlaces = { Vector3(0.5, 0, 0) };
+  EXPECT_TRUE(run.nextAfter(run.first(), failed));
+  failed->status.code = StatusCode::TooLarge;
+  EXPECT_FALSE(run.nextAfter(run.first(), failed));
+}
+
+TEST(Recovery, FeaturesOfADesignAndThoseThatWereAskedForStay)
+{
+  ScanRun run;
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  EXPECT_TRUE(run.nextAfter(run.first(), map, failedQuads()));
+  run.setDesigned(true);
+  EXPECT_FALSE(run.nextAfter(run.first(), map, failedQuads()));
+  SurfaceInput input = test::toInput(test::unitCube(8));
+  input.featureEdges.assign(input.polygonOffsets.size() - 1, 0);
+  input.featureEdges.back() = 7;
+  ScanRun asked(input);
+  EXPECT_FALSE(asked.nextAfter(asked.first(), map, failedQuads()));
 }
 
 // Of all of them.
