@@ -190,25 +190,6 @@ TEST(GivenUpFeatures, BordersWithRoomHaveAMap)
   EXPECT_EQ(asked.certificate.withoutMap, 0U);
 }
 
-/// Filled faces would hide that no surface has these irregular vertices.
-TEST(GivenUpFeatures, WhatContradictsItselfIsNoMatterOfAFace)
-{
-  SurfaceInput input = test::toInput(test::unitCube(8));
-  input.targetValences.resize(input.points.size());
-  for (std::size_t p = 0; p < input.points.size(); ++p)
-  {
-    input.targetValences[p] = (input.points[p] - Vector3(0.5, 0.5, 0)).norm() < 1e-6 ? 3 : 4;
-  }
-  RemeshOptions options;
-  options.quads = 600;
-  const RemeshResult result = remesh(input, options);
-  EXPECT_EQ(result.status.code, StatusCode::Infeasible);
-  EXPECT_EQ(result.status.message.find("leave more points free (TargetValence 0)"), 0U)
-    << result.status.message;
-  EXPECT_TRUE(result.quads.quads.empty());
-  EXPECT_EQ(result.tries.taken[static_cast<std::size_t>(Try::FilledFaces)], 0U);
-}
-
 /// A plate whose edges on some lines are features, with those of its faces cut out that a test names.
 struct CutPlate
 {
