@@ -57,6 +57,31 @@ def grid(n, height=lambda x, y: 0):
     return points, cells
 
 
+def ball(n):
+    """A sphere of n meridians and as many circles."""
+    at = lambda lat, lon: (math.sin(lat) * math.cos(lon), math.sin(lat) * math.sin(lon), math.cos(lat))
+    points = [at(math.pi * i / (n + 1), 2 * math.pi * j / n) for i in range(1, n + 1) for j in range(n)]
+    cells = [t for i in range(n - 1) for j in range(n) for k in [(j + 1) % n]
+             for t in ((n * i + j, n * i + n + j, n * i + n + k), (n * i + j, n * i + n + k, n * i + k))]
+    top, bottom, last = n * n, n * n + 1, n * (n - 1)
+    caps = [t for j in range(n) for k in [(j + 1) % n] for t in ((top, j, k), (bottom, last + k, last + j))]
+    return points + [(0, 0, 1), (0, 0, -1)], cells + caps
+
+
+def spanning_tree(cells):
+    """Bits of edges that join all points of a connected surface and close no loop: there is no face to fill."""
+    bits, reached, grows = [0] * len(cells), {cells[0][0]}, True
+    while grows:
+        grows = False
+        for f, cell in enumerate(cells):
+            for i, (a, b) in enumerate(zip(cell, cell[1:] + cell[:1])):
+                if a in reached and b not in reached:
+                    reached.add(b)
+                    bits[f] |= 1 << i
+                    grows = True
+    return bits
+
+
 def own_files(folder):
     points, cells = grid(12)
     yield legacy(folder / "points_only.vtk", points, [[i] for i in range(len(points))], "VERTICES"), 200
@@ -73,8 +98,11 @@ def own_files(folder):
                  [list(range(31))]), 200
     yield legacy(folder / "huge_places.vtk", [(x * 1e300, y * 1e300, z) for x, y, z in points], cells), 200
     yield legacy(folder / "too_many.vtk", points, cells), TOO_MANY
-    asked = f"CELL_DATA {len(cells)}\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n" + "7\n" * len(cells)
-    yield legacy(folder / "all_features.vtk", points, cells, more=asked), 4
+    round_points, round_cells = ball(40)
+    asked = "".join(f"{bits}\n" for bits in spanning_tree(round_cells))
+    yield legacy(folder / "many_features.vtk", round_points, round_cells,
+                 more=f"CELL_DATA {len(round_cells)}\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n"
+                 + asked), 20
     yield legacy(folder / "wrong_array.vtk", points, cells,
                  more="POINT_DATA %d\nSCALARS TargetValence double 1\nLOOKUP_TABLE default\n" % len(points)
                  + "9\n" * len(points)), 200
