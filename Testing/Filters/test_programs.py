@@ -304,7 +304,7 @@ class ExitCodes(Case):
     def write_two_parts(self):
         """A torus, and one with a tree of features through all its points, which few quads cannot follow."""
         path = self.folder / "parts.vtk"
-        points, faces = torus()
+        points, faces = torus(64, 32)
         count = len(points)
         both = points + [(x + 20, y, z) for x, y, z in points]
         polygons = faces + [tuple(i + count for i in f) for f in faces]

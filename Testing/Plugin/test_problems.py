@@ -18,8 +18,9 @@ import types
 import test_places
 
 
-def write_two_tori(path, around=40, across=20):
-    """VTK's legacy format. All edges of the second torus are features that somebody asks for."""
+def write_two_tori(path, around=56, across=28):
+    """VTK's legacy format. A tree of edges through all points of the second torus are features that somebody asks for.
+    """
     points, faces = [], []
     for middle in (0, 12):
         first = len(points)
@@ -34,11 +35,18 @@ def write_two_tori(path, around=40, across=20):
             for j in range(across):
                 faces += [(at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1))]
     half = len(faces) // 2
+    reached, tree = {faces[half][0]}, [0] * half
+    while len(reached) < len(points) // 2:
+        for f, corners in enumerate(faces[half:]):
+            for i, (a, b) in enumerate(zip(corners, corners[1:] + corners[:1])):
+                if a in reached and b not in reached:
+                    reached.add(b)
+                    tree[f] |= 1 << i
     path.write_text("# vtk DataFile Version 3.0\ntwo tori\nASCII\nDATASET POLYDATA\n"
                     f"POINTS {len(points)} double\n" + "".join("%.9g %.9g %.9g\n" % p for p in points)
                     + f"POLYGONS {len(faces)} {4 * len(faces)}\n" + "".join("3 %d %d %d\n" % f for f in faces)
                     + f"CELL_DATA {len(faces)}\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n"
-                    + "0\n" * half + "7\n" * half, encoding="utf-8")
+                    + "0\n" * half + "".join(f"{bits}\n" for bits in tree), encoding="utf-8")
     return half
 
 
