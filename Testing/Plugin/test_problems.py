@@ -45,7 +45,8 @@ def write_two_tori(path, around=56, across=28):
     path.write_text("# vtk DataFile Version 3.0\ntwo tori\nASCII\nDATASET POLYDATA\n"
                     f"POINTS {len(points)} double\n" + "".join("%.9g %.9g %.9g\n" % p for p in points)
                     + f"POLYGONS {len(faces)} {4 * len(faces)}\n" + "".join("3 %d %d %d\n" % f for f in faces)
-                    + f"CELL_DATA {len(faces)}\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n"
+                    # No active scalars: ParaView would choose them as the array of patches.
+                    + f"CELL_DATA {len(faces)}\nFIELD arrays 1\nFeatureEdges 1 {len(faces)} unsigned_char\n"
                     + "0\n" * half + "".join(f"{bits}\n" for bits in tree), encoding="utf-8")
     return half
 
