@@ -68,20 +68,6 @@ def ball(n):
     return points + [(0, 0, 1), (0, 0, -1)], cells + caps
 
 
-def spanning_tree(cells):
-    """Bits of edges that join all points of a connected surface and close no loop: there is no face to fill."""
-    bits, reached, grows = [0] * len(cells), {cells[0][0]}, True
-    while grows:
-        grows = False
-        for f, cell in enumerate(cells):
-            for i, (a, b) in enumerate(zip(cell, cell[1:] + cell[:1])):
-                if a in reached and b not in reached:
-                    reached.add(b)
-                    bits[f] |= 1 << i
-                    grows = True
-    return bits
-
-
 def own_files(folder):
     points, cells = grid(12)
     yield legacy(folder / "points_only.vtk", points, [[i] for i in range(len(points))], "VERTICES"), 200
@@ -99,7 +85,7 @@ def own_files(folder):
     yield legacy(folder / "huge_places.vtk", [(x * 1e300, y * 1e300, z) for x, y, z in points], cells), 200
     yield legacy(folder / "too_many.vtk", points, cells), TOO_MANY
     round_points, round_cells = ball(40)
-    asked = "".join(f"{bits}\n" for bits in spanning_tree(round_cells))
+    asked = "".join(f"{bits}\n" for bits in test_problems.spanning_tree(round_cells))
     yield legacy(folder / "many_features.vtk", round_points, round_cells,
                  more=f"CELL_DATA {len(round_cells)}\nFIELD arrays 1\nFeatureEdges 1 {len(round_cells)} unsigned_char\n"
                  + asked), 20

@@ -18,6 +18,20 @@ import types
 import test_places
 
 
+def spanning_tree(cells):
+    """Bits of edges that join all points of a connected surface and close no loop: there is no face to fill."""
+    bits, reached, grows = [0] * len(cells), {cells[0][0]}, True
+    while grows:
+        grows = False
+        for f, cell in enumerate(cells):
+            for i, (a, b) in enumerate(zip(cell, cell[1:] + cell[:1])):
+                if a in reached and b not in reached:
+                    reached.add(b)
+                    bits[f] |= 1 << i
+                    grows = True
+    return bits
+
+
 def write_two_tori(path, around=56, across=28):
     """VTK's legacy format. A tree of edges through all points of the second torus are features that somebody asks for.
     """
@@ -35,13 +49,7 @@ def write_two_tori(path, around=56, across=28):
             for j in range(across):
                 faces += [(at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1))]
     half = len(faces) // 2
-    reached, tree = {faces[half][0]}, [0] * half
-    while len(reached) < len(points) // 2:
-        for f, corners in enumerate(faces[half:]):
-            for i, (a, b) in enumerate(zip(corners, corners[1:] + corners[:1])):
-                if a in reached and b not in reached:
-                    reached.add(b)
-                    tree[f] |= 1 << i
+    tree = spanning_tree(faces[half:])
     path.write_text("# vtk DataFile Version 3.0\ntwo tori\nASCII\nDATASET POLYDATA\n"
                     f"POINTS {len(points)} double\n" + "".join("%.9g %.9g %.9g\n" % p for p in points)
                     + f"POLYGONS {len(faces)} {4 * len(faces)}\n" + "".join("3 %d %d %d\n" % f for f in faces)
