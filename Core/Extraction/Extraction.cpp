@@ -378,6 +378,7 @@ void improveShape(const Mesh& mesh, const ExtractionOptions& options, QuadMesh& 
     if (options.replacesBad)
     {
       repairQuads(mesh, quads, { options.fixedVertices, options.keptChains, options.threads });
+      loosenQuads(mesh, quads, { options.fixedVertices, options.threads });
     }
   }
 }

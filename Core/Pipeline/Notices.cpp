@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Quads/QuadShape.h"
+#include "Quads/SurfaceWalk.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -18,6 +19,8 @@ namespace
 
 /// A smaller factor is nothing that a user would see.
 constexpr double kTellRefinement = 1.1;
+/// Nearer points lie on the surface for all that a user would see; in edge lengths.
+constexpr double kTellOffSurface = 0.01;
 
 void appendCount(std::string& text, std::size_t count, const char* one, const char* many)
 {
@@ -98,6 +101,33 @@ std::string invertedText(const QuadMesh& quads)
     ? ""
     : std::to_string(inverted.size()) + (inverted.size() == 1 ? " of them is" : " of them are") +
       " inverted, one near " + placeText(quads.points[quads.quads[inverted.front()].front()]);
+}
+
+std::string looseText(const Mesh& mesh, const QuadMesh& quads, double edgeLength)
+{
+  std::size_t count = 0;
+  double farthest = 0;
+  Vector3 place = Vector3::Zero();
+  for (Index p = 0; p < quads.points.size(); ++p)
+  {
+    const Vector3 on = positionOf(mesh, { quads.sourceFace[p], quads.sourceWeights[p] });
+    const double off = (quads.points[p] - on).norm() / edgeLength;
+    count += off > kTellOffSurface ? 1 : 0;
+    place = off > farthest ? on : place;
+    farthest = std::max(farthest, off);
+  }
+  if (count == 0)
+  {
+    return "";
+  }
+  std::ostringstream text;
+  text << count << (count == 1 ? " point lies" : " points lie") << " beside the surface, up to "
+       << std::setprecision(2) << farthest << " edge lengths, the farthest near "
+       << placeText(place)
+       << ": with all their corners on it quads there would be inverted or nearly flat, as where "
+          "sharp edges are nearer to each other than quads are wide; ask for more quads, or for "
+          "fewer features there";
+  return text.str();
 }
 
 std::string mapNotice(const Mesh& mesh, const Certificate& certificate)

@@ -29,6 +29,9 @@ std::string anisotropyNotice(double share, double limit);
 /// "12 of 3000 triangles are turned over or flat, 1 vertex ...": the counts of a certificate that are not zero.
 std::string defectsText(const Certificate& certificate);
 
+/// Of points that have left the surface (see loosenQuads()), how many, how far, and where; lengths in edge lengths.
+std::string looseText(const Mesh& mesh, const QuadMesh& quads, double edgeLength);
+
 /// What is wrong with the map on the input surface, with the place of its worst triangle and what it means.
 std::string mapNotice(const Mesh& mesh, const Certificate& certificate);
 

@@ -223,6 +223,10 @@ void putOnUserSurface(SizedSurface& sized, const FramedInput& framed, const Reme
   bool quadsAlone, RemeshResult& result)
 {
   result.frame = framed.frame;
+  if (result.status.ok() && !options.preview)
+  {
+    tell({ looseText(sized.surface->mesh, result.quads, sized.edgeLength) }, result.notices);
+  }
   if (options.preview)
   {
     leaveFrameAlone(result, framed.frame);

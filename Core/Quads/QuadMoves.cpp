@@ -108,7 +108,7 @@ QuadMoves::QuadMoves(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>
   }
   for (const Index p : quads_.polygonPoints)
   {
-    freedom_[p] = Freedom::Fixed;
+    freedom_[p] = Freedom::Held;
   }
   computeNormals();
 }
@@ -121,14 +121,14 @@ QuadMoves::Freedom QuadMoves::freedomOf(Index p, const std::vector<Index>& fixed
     if (corner &&
       std::binary_search(fixedVertices.begin(), fixedVertices.end(), mesh_.origin[*corner]))
     {
-      return Freedom::Fixed;
+      return Freedom::Held;
     }
   }
   if (lines_.size(p) != 0)
   {
     return curveFreedom(p);
   }
-  return quads_.onBoundary[p] ? Freedom::Fixed : Freedom::Surface; // where cells were trimmed
+  return quads_.onBoundary[p] ? Freedom::Held : Freedom::Surface; // where cells were trimmed
 }
 
 /// A point slides where one curve goes through it, and straight on where it is a mesh vertex; or where a detected one

@@ -121,7 +121,7 @@ private:
         classes_.emplace_back();
       }
       colourOf[p] = c;
-      if (moves_.freedom(p) != QuadMoves::Freedom::Fixed)
+      if (moves_.freedom(p) > QuadMoves::Freedom::Fixed)
       {
         classes_[c].push_back(p);
       }

@@ -32,6 +32,11 @@ constexpr double kLeastBadnessGain = 1e-3;
 /// Parts of the way to a corner of the quads at a point that are tried.
 constexpr double kPartsOfWay[] = { 0.5, 0.2, 0.08, 0.03, 0.01 };
 
+/// So far a point may leave its place on the surface, in mean edge lengths of the quads round it.
+constexpr double kFarthestOff = 0.15;
+/// A corner of this sine is good enough for a quad that needs it: it counts as a whole unit of area.
+constexpr double kSineOfUnit = 1.0 / 3;
+
 /// Areas of the parallelograms at the four corners, negative where the quad is inverted.
 std::array<double, 4> cornerAreas(const std::array<Vector3, 4>& p)
 {
@@ -42,6 +47,18 @@ std::array<double, 4> cornerAreas(const std::array<Vector3, 4>& p)
     areas[i] = normal.dot((p[i] - p[(i + 3) % 4]).cross(p[(i + 1) % 4] - p[i]));
   }
   return areas;
+}
+
+/// Sines of the angles at the four corners, negative where the quad is inverted, 0 beside an edge without length.
+std::array<double, 4> cornerSines(const std::array<Vector3, 4>& p)
+{
+  std::array<double, 4> sines = cornerAreas(p);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const double scale = (p[i] - p[(i + 3) % 4]).norm() * (p[(i + 1) % 4] - p[i]).norm();
+    sines[i] = scale > 0 ? sines[i] / scale : 0;
+  }
+  return sines;
 }
 
 /// How much a corner counts that has this area in units of the quads there: the worst ones count above all.
@@ -58,7 +75,8 @@ class Untangling
 public:
   Untangling(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
     : quads_(quads), options_(options), moves_(mesh, quads, options.fixedVertices),
-      unit_(quads.quads.size(), 0), changed_(quads.quads.size(), 0), tried_(quads.points.size(), 0)
+      scale_(quads.points.size(), 0), unit_(quads.quads.size(), 0), changed_(quads.quads.size(), 0),
+      tried_(quads.points.size(), 0)
   {
   }
 
@@ -79,6 +97,15 @@ public:
       quads = invertedQuads(quads_.points, quads_.quads);
       countTryLed(Try::WiderUntangling, isWider && quads.size() < before ? 1 : 0);
     }
+  }
+
+  /// Points of bad quads and round them leave the surface.
+  void loosen(const std::vector<Index>& bad)
+  {
+    isLoose_ = true;
+    anchor_ = quads_.points;
+    const std::vector<Place> places = separate(pointsRound(bad, 1));
+    parallelForEach(places.size(), 1, options_.threads, [&](std::size_t i) { mend(places[i]); });
   }
 
 private:
@@ -113,9 +140,7 @@ private:
           {
             near[p] = 1;
             forQuadsAt(p, [&](Index beyond) { next.push_back(beyond); });
-            const QuadMoves::Freedom freedom = moves_.freedom(p);
-            if (freedom == QuadMoves::Freedom::End ? ring == 0
-                                                   : freedom != QuadMoves::Freedom::Fixed)
+            if (mayMove(p, ring))
             {
               points.push_back(p);
             }
@@ -126,6 +151,18 @@ private:
     }
     std::sort(points.begin(), points.end());
     return points;
+  }
+
+  bool mayMove(Index p, int ring) const
+  {
+    const QuadMoves::Freedom freedom = moves_.freedom(p);
+    if (isLoose_)
+    {
+      return freedom != QuadMoves::Freedom::Held && quads_.onBoundary[p] == 0;
+    }
+    return freedom == QuadMoves::Freedom::End
+      ? ring == 0
+      : freedom == QuadMoves::Freedom::Curve || freedom == QuadMoves::Freedom::Surface;
   }
 
   std::vector<Place> separate(const std::vector<Index>& points) const
@@ -168,11 +205,11 @@ private:
 
   std::array<double, 4> areasInUnits(Index q, const std::array<Vector3, 4>& corners) const
   {
-    std::array<double, 4> areas = cornerAreas(corners);
+    std::array<double, 4> areas = isLoose_ ? cornerSines(corners) : cornerAreas(corners);
     const bool outwards = moves_.facesOutwards(q, corners);
     for (double& area : areas)
     {
-      area /= unit_[q];
+      area /= isLoose_ ? kSineOfUnit : unit_[q];
       area = outwards ? area : -2 - area; // all are positive where a quad is inverted as a whole
     }
     return areas;
@@ -262,8 +299,18 @@ private:
       unit_[q] = 0;
       changed_[q] = 1;
     }
+    double length = 0;
+    for (const Index q : place.quads)
+    {
+      const std::array<Vector3, 4> corners = cornersOf(quads_.points, quads_.quads[q]);
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        length += (corners[(i + 1) % 4] - corners[i]).norm();
+      }
+    }
     for (const Index p : place.points)
     {
+      scale_[p] = length / (4 * static_cast<double>(place.quads.size()));
       tried_[p] = 0;
       double sum = 0;
       forQuadsAt(p, [&](Index q) { sum += area(q); });
@@ -308,7 +355,7 @@ private:
   {
     Move best{ moves_.place(p), moves_.position(p), before };
     const QuadMoves::EdgeLengths lengths = moves_.edgeLengths(p, moves_.position(p));
-    const std::vector<Vector3> ways = waysFrom(p);
+    const std::vector<Vector3> ways = isLoose_ ? axesAt(p) : waysFrom(p);
     for (const double step : kPartsOfWay)
     {
       for (const Vector3& way : ways)
@@ -322,6 +369,15 @@ private:
       }
     }
     return best;
+  }
+
+  /// Over the surface and off it, as far as a point may leave its place.
+  std::vector<Vector3> axesAt(Index p) const
+  {
+    const Vector3 normal = moves_.normalAt(p);
+    const Vector3 tangent = moves_.tangentAt(p);
+    const double far = kFarthestOff * scale_[p];
+    return { far * tangent, far * normal.cross(tangent), far * normal };
   }
 
   std::vector<Vector3> waysFrom(Index p) const
@@ -351,12 +407,14 @@ private:
   void tryMove(
     Index p, const Vector3& displacement, const QuadMoves::EdgeLengths& before, Move& best) const
   {
-    const std::optional<SurfacePoint> place = moves_.target(p, displacement);
+    const std::optional<SurfacePoint> place =
+      isLoose_ ? moves_.place(p) : moves_.target(p, displacement);
     if (!place)
     {
       return;
     }
-    const Vector3 position = positionOf(moves_.mesh(), *place);
+    const Vector3 position = isLoose_ ? nearAnchor(p, moves_.position(p) + displacement)
+                                      : positionOf(moves_.mesh(), *place);
     const QuadMoves::EdgeLengths after = moves_.edgeLengths(p, position);
     if (after.shortest < kShortUntangledEdge * after.mean && after.shortest < before.shortest)
     {
@@ -367,6 +425,13 @@ private:
     {
       best = { *place, position, there };
     }
+  }
+
+  Vector3 nearAnchor(Index p, const Vector3& position) const
+  {
+    const Vector3 way = position - anchor_[p];
+    const double far = kFarthestOff * scale_[p];
+    return way.norm() > far ? Vector3(anchor_[p] + far / way.norm() * way) : position;
   }
 
   double badnessAt(Index p, const Vector3& position) const
@@ -387,6 +452,10 @@ private:
   QuadMesh& quads_;
   const UntanglingOptions& options_;
   QuadMoves moves_;
+  bool isLoose_ = false;
+  std::vector<Vector3> anchor_; ///< per point: its place on the surface, once points may leave it
+  std::vector<double>
+    scale_; ///< per point that may move: mean edge length of the quads of its place
   std::vector<double> unit_; ///< per quad: area that those of its corners are held against
   std::vector<std::uint32_t> changed_; ///< per quad: when one of its points moved
   std::vector<std::uint32_t> tried_;   ///< per point: when it was looked at
@@ -406,6 +475,15 @@ UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const Untangli
   Untangling(mesh, quads, options).run(std::move(bad));
   result.invertedAfter = invertedQuads(quads.points, quads.quads).size();
   return result;
+}
+
+void loosenQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
+{
+  const std::vector<Index> bad = badQuads(quads.points, quads.quads);
+  if (!bad.empty())
+  {
+    Untangling(mesh, quads, options).loosen(bad);
+  }
 }
 
 } // namespace quadrille

@@ -30,4 +30,11 @@ struct UntanglingResult
 /// result does not depend on the number of threads. quads must be a manifold that was extracted from mesh.
 UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options);
 
+/// What places on the surface cannot mend: where two features touch each other, or are nearer than their quads, one of
+/// these is flat or inverted wherever its points lie on them. Points of bad quads and of the ring round them leave the
+/// surface and its features by at most 0.15 edge lengths, so that the sines at the corners become positive; those of
+/// the boundary and those that stay (see QuadMoves.h) do not. As untangleQuads() otherwise. sourceFace and
+/// sourceWeights remain the places that the points have left.
+void loosenQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options);
+
 } // namespace quadrille

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace quadrille::test
 {
 namespace
@@ -155,6 +157,32 @@ struct FadingEdge
   }
 };
 
+/// The same nine quads, of which the middle one lies between two features that touch each other: four corners that slide
+/// nowhere, two and two at one place.
+FadingEdge touchingEdges()
+{
+  FadingEdge touching(kFeatureEdge, 8, { 16, 8 });
+  QuadMesh& quads = touching.quads;
+  for (const Index p : { 5u, 6u })
+  {
+    quads.points[p + 4] = quads.points[p];
+    quads.sourceFace[p + 4] = quads.sourceFace[p];
+    quads.sourceWeights[p + 4] = quads.sourceWeights[p];
+  }
+  quads.lines.clear();
+  for (const Index p : { 5u, 6u, 9u, 10u })
+  {
+    for (const Index other : { p - 1, p + 1, p < 8 ? p - 4 : p + 4 })
+    {
+      QuadLine line;
+      line.a = p;
+      line.b = other;
+      quads.lines.push_back(line);
+    }
+  }
+  return touching;
+}
+
 } // namespace
 
 TEST(QuadShape, InvertedIsAJacobianOfAtMostZero)
@@ -278,6 +306,44 @@ TEST(QuadUntangling, MendsQuadsThatAreNearlyInverted)
   ASSERT_EQ(badQuads(edge.quads.points, edge.quads.quads).size(), 1u);
   untangleQuads(edge.mesh, edge.quads, { edge.others, 1 });
   EXPECT_TRUE(badQuads(edge.quads.points, edge.quads.quads).empty());
+}
+
+// Wherever the corners lie on features that touch each other, the quad between them is flat.
+TEST(QuadUntangling, PointsLeaveTouchingFeaturesForTheSakeOfQuads)
+{
+  FadingEdge touching = touchingEdges();
+  QuadMesh& quads = touching.quads;
+  const QuadMesh before = quads;
+  ASSERT_EQ(invertedCount(quads), 3u);
+  untangleQuads(touching.mesh, quads, {});
+  expectSamePlaces(quads, before);
+
+  loosenQuads(touching.mesh, quads, {});
+  EXPECT_TRUE(badQuads(quads.points, quads.quads).empty());
+  for (Index p = 0; p < quads.points.size(); ++p)
+  {
+    const double off = (quads.points[p] - before.points[p]).norm();
+    EXPECT_TRUE(off == 0 || quads.onBoundary[p] == 0) << p;
+    EXPECT_LE(off, 0.15 * 8);
+    EXPECT_EQ(quads.sourceFace[p], before.sourceFace[p]);
+    EXPECT_EQ(quads.sourceWeights[p], before.sourceWeights[p]);
+  }
+}
+
+TEST(QuadUntangling, HeldPointsLeaveNothing)
+{
+  FadingEdge touching = touchingEdges();
+  const QuadMesh before = touching.quads;
+  std::vector<Index> all(touching.mesh.vertexCount());
+  std::iota(all.begin(), all.end(), Index{ 0 });
+  loosenQuads(touching.mesh, touching.quads, { all, 1 });
+  expectSamePlaces(touching.quads, before);
+
+  FadingEdge edge(kFeatureEdge, 8, { 16, 8 }); // without bad quads
+  const QuadMesh good = edge.quads;
+  ASSERT_TRUE(badQuads(good.points, good.quads).empty());
+  loosenQuads(edge.mesh, edge.quads, {});
+  expectSamePlaces(edge.quads, good);
 }
 
 TEST(QuadUntangling, SameBytesForAnyNumberOfThreads)
