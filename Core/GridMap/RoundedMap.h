@@ -10,7 +10,7 @@
 #include "GridMap/SeamlessSpace.h"
 #include "Numerics/IntegerLattice.h"
 #include "Numerics/IntegerRounding.h"
-#include "Numerics/SparseLdl.h"
+#include "Numerics/SparseCholesky.h"
 
 #include <optional>
 #include <vector>
@@ -49,7 +49,7 @@ private:
   std::vector<std::uint8_t>
     derived_; ///< #forms: translations, which are to follow from places if possible
   IntegerLattice lattice_;
-  SparseLdl poisson_;
+  SparseCholesky poisson_;
   Eigen::VectorXd solution_;                ///< of the Poisson equation
   Eigen::SparseMatrix<double> coordinates_; ///< #unknowns x #integers, a column a coordinate
   Eigen::MatrixXd schur_;                   ///< #integers x #integers

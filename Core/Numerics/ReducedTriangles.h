@@ -4,7 +4,7 @@
 /// H = sum A_t^T H_t A_t with one symbolic analysis for all factorizations.
 #pragma once
 
-#include "Numerics/SparseLdl.h"
+#include "Numerics/SparseCholesky.h"
 #include "Numerics/Untangler.h"
 
 #include <vector>
@@ -55,7 +55,7 @@ private:
   std::vector<int> diagonal_; ///< place of each diagonal entry
   Matrix hessian_;            ///< lower triangle
   Eigen::VectorXd gradient_;
-  SparseLdl solver_;
+  SparseCholesky solver_;
   bool analyzed_ = false;
   double factorFlops_ = 0;
 };

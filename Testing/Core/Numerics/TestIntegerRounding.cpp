@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
 #include "Numerics/IntegerRounding.h"
-#include "Numerics/SparseLdl.h"
+#include "Numerics/SparseCholesky.h"
 
 #include <gtest/gtest.h>
 
@@ -132,7 +132,7 @@ TEST(IntegerRounding, RefusesFormsThatDependOnEachOther)
     roundForms(schur, Eigen::Vector2d(0.2, 0.3), { 0 }, RoundingOrder::OneAtATime), InvalidInput);
 }
 
-TEST(SparseLdl, GivesTheSchurComplementOfSparseColumns)
+TEST(SparseCholesky, GivesTheSchurComplementOfSparseColumns)
 {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1, 1);
@@ -154,9 +154,9 @@ TEST(SparseLdl, GivesTheSchurComplementOfSparseColumns)
         c(random() % kSize, j) += number(random);
       }
     }
-    SparseLdl::Matrix lower = Eigen::MatrixXd(dense.triangularView<Eigen::Lower>()).sparseView();
+    SparseCholesky::Matrix lower = Eigen::MatrixXd(dense.triangularView<Eigen::Lower>()).sparseView();
     lower.makeCompressed();
-    SparseLdl solver;
+    SparseCholesky solver;
     solver.analyze(lower);
     ASSERT_TRUE(solver.factorize(lower, 0));
     const Eigen::MatrixXd schur = solver.schur(c.sparseView());

@@ -157,7 +157,7 @@ struct FadingEdge
   }
 };
 
-/// The same nine quads, of which the middle one lies between two features that touch each other: four corners that slide
+/// The same nine quads; the middle one lies between two features that touch each other: four corners that slide
 /// nowhere, two and two at one place.
 FadingEdge touchingEdges()
 {

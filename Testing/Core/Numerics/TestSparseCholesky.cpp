@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
 #include "Base/Progress.h"
-#include "Numerics/SparseLdl.h"
+#include "Numerics/SparseCholesky.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace
 {
 
 /// Lower triangle of a random matrix with some entries a row, made positive definite by its diagonal.
-SparseLdl::Matrix randomMatrix(int n, int perRow, std::mt19937& random, double dominance = 1.01)
+SparseCholesky::Matrix randomMatrix(int n, int perRow, std::mt19937& random, double dominance = 1.01)
 {
   std::uniform_real_distribution<double> value(-1, 1);
   std::uniform_int_distribution<int> index(0, n - 1);
@@ -34,36 +34,36 @@ SparseLdl::Matrix randomMatrix(int n, int perRow, std::mt19937& random, double d
   {
     dense(i, i) = dominance * (full.row(i).cwiseAbs().sum() - std::abs(full(i, i))) + 0.01;
   }
-  SparseLdl::Matrix lower = Eigen::MatrixXd(dense.triangularView<Eigen::Lower>()).sparseView();
+  SparseCholesky::Matrix lower = Eigen::MatrixXd(dense.triangularView<Eigen::Lower>()).sparseView();
   lower.makeCompressed();
   return lower;
 }
 
 } // namespace
 
-TEST(SparseLdl, FlopsFollowTheFill)
+TEST(SparseCholesky, FlopsFollowTheFill)
 {
   // A dense matrix of 4: columns of L with 3, 2, 1, 0 entries below the diagonal. A diagonal one has none.
-  SparseLdl::Matrix dense =
+  SparseCholesky::Matrix dense =
     Eigen::MatrixXd(Eigen::MatrixXd::Constant(4, 4, 0.1).triangularView<Eigen::Lower>())
       .sparseView();
-  SparseLdl solver;
+  SparseCholesky solver;
   solver.analyze(dense);
   EXPECT_EQ(solver.factorFlops(), 3 * 4 + 2 * 3 + 1 * 2);
-  SparseLdl::Matrix diagonal(4, 4);
+  SparseCholesky::Matrix diagonal(4, 4);
   diagonal.setIdentity();
   diagonal.makeCompressed();
   solver.analyze(diagonal);
   EXPECT_EQ(solver.factorFlops(), 0);
 }
 
-TEST(SparseLdl, SolvesWhatADenseSolverSolves)
+TEST(SparseCholesky, SolvesWhatADenseSolverSolves)
 {
   std::mt19937 random(3);
   for (const int n : { 1, 2, 5, 40, 150 })
   {
-    SparseLdl solver;
-    SparseLdl::Matrix lower = randomMatrix(n, 3, random);
+    SparseCholesky solver;
+    SparseCholesky::Matrix lower = randomMatrix(n, 3, random);
     solver.analyze(lower);
     for (const double shift : { 0.0, 0.5 }) // the pattern serves several factorizations
     {
@@ -77,11 +77,11 @@ TEST(SparseLdl, SolvesWhatADenseSolverSolves)
   }
 }
 
-TEST(SparseLdl, TellsWhatIsNotPositiveDefinite)
+TEST(SparseCholesky, TellsWhatIsNotPositiveDefinite)
 {
   std::mt19937 random(5);
-  const SparseLdl::Matrix lower = randomMatrix(60, 3, random);
-  SparseLdl solver;
+  const SparseCholesky::Matrix lower = randomMatrix(60, 3, random);
+  SparseCholesky solver;
   solver.analyze(lower);
   const Eigen::MatrixXd full = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
   const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(full).eigenvalues()[0];
@@ -91,14 +91,14 @@ TEST(SparseLdl, TellsWhatIsNotPositiveDefinite)
   EXPECT_TRUE(solver.factorize(lower, 0)) << "a failure leaves nothing behind";
 }
 
-TEST(SparseLdl, RefusesOtherMatrices)
+TEST(SparseCholesky, RefusesOtherMatrices)
 {
   std::mt19937 random(7);
-  SparseLdl solver;
-  SparseLdl::Matrix rectangle(3, 2);
+  SparseCholesky solver;
+  SparseCholesky::Matrix rectangle(3, 2);
   rectangle.makeCompressed();
   EXPECT_THROW(solver.analyze(rectangle), InvalidInput);
-  SparseLdl::Matrix hollow(2, 2);
+  SparseCholesky::Matrix hollow(2, 2);
   hollow.insert(1, 0) = 1;
   hollow.makeCompressed();
   EXPECT_THROW(solver.analyze(hollow), InvalidInput);
@@ -106,15 +106,15 @@ TEST(SparseLdl, RefusesOtherMatrices)
   EXPECT_THROW(solver.factorize(randomMatrix(21, 2, random), 0), InvalidInput);
 }
 
-TEST(SparseLdl, StopsOnRequest)
+TEST(SparseCholesky, StopsOnRequest)
 {
   std::mt19937 random(9);
-  const SparseLdl::Matrix lower = randomMatrix(40, 3, random);
-  SparseLdl solver;
+  const SparseCholesky::Matrix lower = randomMatrix(40, 3, random);
+  SparseCholesky solver;
   solver.analyze(lower);
   PollScope scope([](double, const std::string&) { return false; });
   std::this_thread::sleep_for(PollScope::kInterval);
   EXPECT_THROW(solver.factorize(lower, 0), Cancelled);
   std::this_thread::sleep_for(PollScope::kInterval);
-  EXPECT_THROW(SparseLdl().analyze(lower), Cancelled);
+  EXPECT_THROW(SparseCholesky().analyze(lower), Cancelled);
 }
