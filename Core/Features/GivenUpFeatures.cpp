@@ -101,8 +101,6 @@ const char* nameOf(FeatureLoss reason)
   {
     case FeatureLoss::NoCrease:
       return "no crease";
-    case FeatureLoss::SharpCorner:
-      return "sharp corner";
     case FeatureLoss::FailedMap:
       return "failed map";
     case FeatureLoss::MidLine:
@@ -174,8 +172,6 @@ const char* whyNotFollowed(FeatureLoss reason)
   {
     case FeatureLoss::NoCrease:
       return "not followed: its curve is no crease as a whole";
-    case FeatureLoss::SharpCorner:
-      return "not followed: it leaves another one at too small an angle for a quad";
     case FeatureLoss::FailedMap:
       return "not followed: with it there was no map, or no quads";
     case FeatureLoss::MidLine:

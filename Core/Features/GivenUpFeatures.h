@@ -15,13 +15,12 @@ namespace quadrille
 /// Why a curve of sharp edges is no feature of the quads.
 enum class FeatureLoss : std::uint8_t
 {
-  Unresolved,  ///< below the smallest detail: see removeUnresolvedFeatures
-  NoCrease,    ///< noise that lies in a row: see removeFalseCreases
-  SharpCorner, ///< beside another one, which it leaves at too small an angle: see trimSharpCorners
-  FailedMap,   ///< near the place where a map, or its quads, failed
-  MidLine      ///< in a mirror plane, where quads across it were asked for
+  Unresolved, ///< below the smallest detail: see removeUnresolvedFeatures
+  NoCrease,   ///< noise that lies in a row: see removeFalseCreases
+  FailedMap,  ///< near the place where a map, or its quads, failed
+  MidLine     ///< in a mirror plane, where quads across it were asked for
 };
-/// "unresolved", "no crease", "sharp corner", "failed map", "mid-line".
+/// "unresolved", "no crease", "failed map", "mid-line".
 const char* nameOf(FeatureLoss reason);
 /// "not followed: ...", for lists of small details.
 const char* whyNotFollowed(FeatureLoss reason);

@@ -8,7 +8,6 @@
 #include "Base/Progress.h"
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
-#include "Features/SharpCorners.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/DrawnOnSurface.h"
@@ -184,16 +183,6 @@ void filterFeatures(PreparedSurface& surface, const RemeshOptions& options, Size
   tell({ featureNotice(filtered), creases.text() }, sized.notices);
 }
 
-/// On triangles no larger than quads.
-void trimCorners(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
-{
-  std::vector<std::uint8_t> before = surface.mesh.flags;
-  const SharpCornerReport trimmed =
-    trimSharpCorners(surface.mesh, sized.edgeLength, options.threads);
-  noteGivenUp(FeatureLoss::SharpCorner, trimmed.removedEdges, surface.mesh, before, sized);
-  tell({ trimmed.text() }, sized.notices);
-}
-
 /// Without small components and features that quads cannot resolve, in triangles no larger than quads.
 void refine(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
 {
@@ -204,7 +193,6 @@ void refine(PreparedSurface& surface, const RemeshOptions& options, SizedSurface
   filterFeatures(surface, options, sized);
   refineSurface(surface, sized.edgeLength, subProgress(options.progress, 0.1, 0.15, "Refining: "),
     options.threads);
-  trimCorners(surface, options, sized);
   sized.stages.add("refine", secondsNow() - start, before, surface.mesh.faceCount());
   tell({ surface.notice }, sized.notices);
 }

@@ -131,17 +131,9 @@ QuadMoves::Freedom QuadMoves::freedomOf(Index p, const std::vector<Index>& fixed
   return quads_.onBoundary[p] ? Freedom::Held : Freedom::Surface; // where cells were trimmed
 }
 
-/// A point slides where one curve goes through it, and straight on where it is a mesh vertex; or where a detected one
-/// ends.
+/// A point slides where one curve goes through it, and straight on where it is a mesh vertex.
 QuadMoves::Freedom QuadMoves::curveFreedom(Index p) const
 {
-  if (lines_.size(p) == 1)
-  {
-    const std::optional<CurvePoint> at = curvePoint(place(p));
-    return at && (mesh_.flags[at->h] & kRequestedFeature) == 0 && !mesh_.isBoundary(at->h)
-      ? Freedom::End
-      : Freedom::Fixed;
-  }
   if (lines_.size(p) != 2)
   {
     return Freedom::Fixed;
@@ -211,7 +203,7 @@ std::optional<CurvePoint> QuadMoves::curvePoint(const SurfacePoint& place) const
 
 std::optional<SurfacePoint> QuadMoves::target(Index p, const Vector3& displacement) const
 {
-  if (freedom_[p] != Freedom::Curve && freedom_[p] != Freedom::End)
+  if (freedom_[p] != Freedom::Curve)
   {
     return walkSurface(mesh_, place(p), displacement, kMaximumFaces);
   }

@@ -21,8 +21,8 @@ namespace quadrille
 using PointLists = Grouped<>;
 
 /// Where the points of a quad mesh may go: straight over the faces of the mesh, so that sourceFace and sourceWeights
-/// stay exact; points of features and boundaries along their curves. Corners and junctions of curves, and ends of those
-/// that were asked for, stay on the surface; points of polygons and of a trimmed boundary, and those on the fixed
+/// stay exact; points of features and boundaries along their curves. Corners, ends and junctions of curves stay on the
+/// surface; points of polygons and of a trimmed boundary, and those on the fixed
 /// vertices, stay whatever becomes of their quads.
 class QuadMoves
 {
@@ -32,8 +32,6 @@ public:
     Held,  ///< for good
     Fixed, ///< on the surface
     Curve,
-    End, ///< of a sharp edge that fades away: where it falls below the feature angle is no place of its own, so that it
-         ///< may move along the curve for the sake of bad quads
     Surface
   };
 

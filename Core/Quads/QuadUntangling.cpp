@@ -4,7 +4,6 @@
 
 #include "Base/DisjointSets.h"
 #include "Base/Parallel.h"
-#include "Base/TryCount.h"
 #include "Quads/QuadMoves.h"
 #include "Quads/QuadShape.h"
 
@@ -16,8 +15,6 @@ namespace quadrille
 namespace
 {
 
-/// So many rings of quads round those that are bad may move; the next number round those that are inverted then.
-constexpr int kRingsThatMove[] = { 1, 2, 4, 8 };
 constexpr int kMostUntanglingSweeps = 30;
 /// A sweep that lowers the badness of a place by less than this part is the last one.
 constexpr double kLeastProgress = 0.01;
@@ -32,8 +29,9 @@ constexpr double kLeastBadnessGain = 1e-3;
 /// Parts of the way to a corner of the quads at a point that are tried.
 constexpr double kPartsOfWay[] = { 0.5, 0.2, 0.08, 0.03, 0.01 };
 
-/// So far a point may leave its place on the surface, in mean edge lengths of the quads round it.
-constexpr double kFarthestOff = 0.15;
+/// So far points may leave their places on the surface for the sake of bad quads, and of those that are inverted then;
+/// in mean edge lengths of the quads round them.
+constexpr double kFarthestOff[] = { 0.15, 0.3 };
 /// A corner of this sine is good enough for a quad that needs it: it counts as a whole unit of area.
 constexpr double kSineOfUnit = 1.0 / 3;
 
@@ -80,32 +78,20 @@ public:
   {
   }
 
-  /// Points round quads move, and again farther round those that are inverted then.
-  void run(std::vector<Index> quads)
-  {
-    for (const int rings : kRingsThatMove)
-    {
-      if (quads.empty())
-      {
-        break;
-      }
-      const bool isWider = rings > kRingsThatMove[0];
-      countTry(Try::WiderUntangling, isWider ? 1 : 0);
-      const std::size_t before = quads.size();
-      const std::vector<Place> places = separate(pointsRound(quads, rings));
-      parallelForEach(places.size(), 1, options_.threads, [&](std::size_t i) { mend(places[i]); });
-      quads = invertedQuads(quads_.points, quads_.quads);
-      countTryLed(Try::WiderUntangling, isWider && quads.size() < before ? 1 : 0);
-    }
-  }
+  /// Points round quads move.
+  void run(const std::vector<Index>& quads) { mendAll(separate(pointsRound(quads))); }
 
-  /// Points of bad quads and round them leave the surface.
-  void loosen(const std::vector<Index>& bad)
+  /// Points round quads leave the surface, and go farther from it round those that are inverted then.
+  void loosen(std::vector<Index> quads)
   {
     isLoose_ = true;
     anchor_ = quads_.points;
-    const std::vector<Place> places = separate(pointsRound(bad, 1));
-    parallelForEach(places.size(), 1, options_.threads, [&](std::size_t i) { mend(places[i]); });
+    for (const double off : kFarthestOff)
+    {
+      farthestOff_ = off;
+      mendAll(separate(pointsRound(quads)));
+      quads = invertedQuads(quads_.points, quads_.quads);
+    }
   }
 
 private:
@@ -116,20 +102,24 @@ private:
     std::vector<Index> points, quads;
   };
 
+  void mendAll(const std::vector<Place>& places)
+  {
+    parallelForEach(places.size(), 1, options_.threads, [&](std::size_t i) { mend(places[i]); });
+  }
+
   template <typename Visitor>
   void forQuadsAt(Index p, const Visitor& visit) const
   {
     std::for_each(moves_.incidentQuads().begin(p), moves_.incidentQuads().end(p), visit);
   }
 
-  /// The movable points of these quads and of so many rings round them, ascending; ends of sharp edges only where they
-  /// are corners of these quads.
-  std::vector<Index> pointsRound(const std::vector<Index>& quads, int rings) const
+  /// The movable points of these quads and of a ring round them, ascending.
+  std::vector<Index> pointsRound(const std::vector<Index>& quads) const
   {
     std::vector<std::uint8_t> near(quads_.points.size(), 0);
     std::vector<Index> front = quads;
     std::vector<Index> points;
-    for (int ring = 0; ring <= rings; ++ring)
+    for (int ring = 0; ring < 2; ++ring)
     {
       std::vector<Index> next;
       for (const Index q : front)
@@ -140,7 +130,7 @@ private:
           {
             near[p] = 1;
             forQuadsAt(p, [&](Index beyond) { next.push_back(beyond); });
-            if (mayMove(p, ring))
+            if (mayMove(p))
             {
               points.push_back(p);
             }
@@ -153,16 +143,14 @@ private:
     return points;
   }
 
-  bool mayMove(Index p, int ring) const
+  bool mayMove(Index p) const
   {
     const QuadMoves::Freedom freedom = moves_.freedom(p);
     if (isLoose_)
     {
       return freedom != QuadMoves::Freedom::Held && quads_.onBoundary[p] == 0;
     }
-    return freedom == QuadMoves::Freedom::End
-      ? ring == 0
-      : freedom == QuadMoves::Freedom::Curve || freedom == QuadMoves::Freedom::Surface;
+    return freedom > QuadMoves::Freedom::Fixed;
   }
 
   std::vector<Place> separate(const std::vector<Index>& points) const
@@ -376,7 +364,7 @@ private:
   {
     const Vector3 normal = moves_.normalAt(p);
     const Vector3 tangent = moves_.tangentAt(p);
-    const double far = kFarthestOff * scale_[p];
+    const double far = farthestOff_ * scale_[p];
     return { far * tangent, far * normal.cross(tangent), far * normal };
   }
 
@@ -416,7 +404,8 @@ private:
     const Vector3 position = isLoose_ ? nearAnchor(p, moves_.position(p) + displacement)
                                       : positionOf(moves_.mesh(), *place);
     const QuadMoves::EdgeLengths after = moves_.edgeLengths(p, position);
-    if (after.shortest < kShortUntangledEdge * after.mean && after.shortest < before.shortest)
+    if (!isLoose_ && after.shortest < kShortUntangledEdge * after.mean &&
+      after.shortest < before.shortest)
     {
       return;
     }
@@ -430,7 +419,7 @@ private:
   Vector3 nearAnchor(Index p, const Vector3& position) const
   {
     const Vector3 way = position - anchor_[p];
-    const double far = kFarthestOff * scale_[p];
+    const double far = farthestOff_ * scale_[p];
     return way.norm() > far ? Vector3(anchor_[p] + far / way.norm() * way) : position;
   }
 
@@ -453,6 +442,7 @@ private:
   const UntanglingOptions& options_;
   QuadMoves moves_;
   bool isLoose_ = false;
+  double farthestOff_ = 0;
   std::vector<Vector3> anchor_; ///< per point: its place on the surface, once points may leave it
   std::vector<double>
     scale_; ///< per point that may move: mean edge length of the quads of its place
@@ -466,23 +456,23 @@ private:
 UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
 {
   UntanglingResult result;
-  std::vector<Index> bad = badQuads(quads.points, quads.quads);
+  const std::vector<Index> bad = badQuads(quads.points, quads.quads);
   if (bad.empty())
   {
     return result; // inverted ones are bad
   }
   result.invertedBefore = invertedQuads(quads.points, quads.quads).size();
-  Untangling(mesh, quads, options).run(std::move(bad));
+  Untangling(mesh, quads, options).run(bad);
   result.invertedAfter = invertedQuads(quads.points, quads.quads).size();
   return result;
 }
 
 void loosenQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
 {
-  const std::vector<Index> bad = badQuads(quads.points, quads.quads);
+  std::vector<Index> bad = badQuads(quads.points, quads.quads);
   if (!bad.empty())
   {
-    Untangling(mesh, quads, options).loosen(bad);
+    Untangling(mesh, quads, options).loosen(std::move(bad));
   }
 }
 
