@@ -31,9 +31,9 @@ UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const Untangli
 
 /// What places on the surface cannot mend: where two features touch each other, or are nearer than their quads, one of
 /// these is flat or inverted wherever its points lie on them. Points of bad quads and of the ring round them leave the
-/// surface and its features by at most 0.15 edge lengths, and 0.3 where quads are inverted still, so that the sines at the corners become positive; those of
-/// the boundary and those that stay (see QuadMoves.h) do not. As untangleQuads() otherwise. sourceFace and
-/// sourceWeights remain the places that the points have left.
+/// surface and its features by at most 0.15 edge lengths, and 0.3 where quads are inverted still, so that the sines at
+/// the corners become positive; those of the boundary and those that are held (see QuadMoves.h) do not. As
+/// untangleQuads() otherwise. sourceFace and sourceWeights remain the places that the points have left.
 void loosenQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options);
 
 } // namespace quadrille
