@@ -1,19 +1,19 @@
 #!/usr/bin/env pvpython
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws up to 12 meshes into one picture, with their edges, irregular vertices as dots (blue: fewer than four edges,
-red: more), boundary vertices left out.
+"""Draws meshes into one picture, with their edges, irregular vertices as dots (blue: fewer than four edges, red: more),
+boundary vertices left out, and, if asked for, edges that are bent by more than 30 degrees as thick lines.
 
-  xvfb-run -a pvpython Scripts/figures/contact-sheet.py OUT.png MESH.obj...
+  xvfb-run -a pvpython Scripts/figures/contact-sheet.py OUT.png MESH.obj... [--columns N] [--tile PIXELS] [--sharp]
 """
+import argparse
 import math
 import pathlib
-import sys
 
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-TILE = 620
+SHARP_ANGLE = 30
 
 
 def readMesh(path):
@@ -77,12 +77,30 @@ def surface(mesh):
     return actor
 
 
-def renderer(path, viewport):
+def sharpEdges(mesh):
+    edges = vtk.vtkFeatureEdges()
+    edges.SetInputData(mesh)
+    edges.SetFeatureAngle(SHARP_ANGLE)
+    edges.ManifoldEdgesOff()
+    edges.ColoringOff()
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(edges.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(0.75, 0.25, 0.0)
+    actor.GetProperty().SetLineWidth(2.5)
+    return actor
+
+
+def renderer(path, viewport, drawsSharp):
     mesh = readMesh(path)
     view = vtk.vtkRenderer()
     view.SetBackground(1, 1, 1)
     view.SetViewport(*viewport)
     view.AddActor(surface(mesh))
+    if drawsSharp:
+        view.AddActor(sharpEdges(mesh))
     for below in (True, False):
         view.AddActor(dots(mesh, below, 0.004 * mesh.GetLength()))
     label = vtk.vtkTextActor()
@@ -101,21 +119,28 @@ def renderer(path, viewport):
 
 
 def main():
-    out, meshes = sys.argv[1], sys.argv[2:]
-    columns = min(4, len(meshes))
-    rows = math.ceil(len(meshes) / columns)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out")
+    parser.add_argument("meshes", nargs="+")
+    parser.add_argument("--columns", type=int, default=4)
+    parser.add_argument("--tile", type=int, default=620)
+    parser.add_argument("--sharp", action="store_true")
+    asked = parser.parse_args()
+    columns = min(asked.columns, len(asked.meshes))
+    rows = math.ceil(len(asked.meshes) / columns)
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
-    window.SetSize(TILE * columns, TILE * rows)
-    for k, path in enumerate(meshes):
+    window.SetSize(asked.tile * columns, asked.tile * rows)
+    for k, path in enumerate(asked.meshes):
         x, y = k % columns, rows - 1 - k // columns
-        window.AddRenderer(renderer(path, (x / columns, y / rows, (x + 1) / columns, (y + 1) / rows)))
+        viewport = (x / columns, y / rows, (x + 1) / columns, (y + 1) / rows)
+        window.AddRenderer(renderer(path, viewport, asked.sharp))
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
     grab.SetInput(window)
     grab.ReadFrontBufferOff()
     writer = vtk.vtkPNGWriter()
-    writer.SetFileName(out)
+    writer.SetFileName(asked.out)
     writer.SetInputConnection(grab.GetOutputPort())
     writer.Write()
 
