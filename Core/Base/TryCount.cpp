@@ -71,6 +71,7 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
   { "elements", "centre otherwise", "the centre by the other pair of edges, or the nearest place",
     "3" },
   { "hierarchy", "looser guards", "guards and prices of removals are loosened", "15 stages" },
+  { "hierarchy", "old folds", "stars that were folded before may stay folded", "1" },
   { "hierarchy", "other diagonals", "a star's triangulation without a diagonal that is there",
     "4" },
   { "details", "through three corners", "the cut leads through three corners", "1" },

@@ -57,6 +57,7 @@ enum class Try : std::uint8_t
   NodeFurther,
   CentreOtherwise,
   LooserGuards,
+  OldFolds,
   OtherDiagonals,
   ThreeCorners,
   TwiceTheQuads,

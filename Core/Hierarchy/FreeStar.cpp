@@ -218,6 +218,11 @@ bool FreeStar::measure()
     nz_[i] *= u_[i];
   }
   leastDot_ = static_cast<float>(guards_.minimumNormalDot);
+  for (std::size_t i = 0; guards_.allowOldFolds && i < N; ++i)
+  {
+    const float dot = nx_[i] * mean_[0] + ny_[i] * mean_[1] + nz_[i] * mean_[2];
+    leastDot_ = dot < leastDot_ ? dot : leastDot_;
+  }
   goRound<N>(nx_);
   goRound<N>(ny_);
   goRound<N>(nz_);

@@ -58,6 +58,8 @@ struct HierarchyOptions
   /// Phase 1 may leave some edges shorter than s/2, where that costs more time than it saves later: for a
   /// level that is thinned out again.
   bool isRough = false;
+  /// The finest mesh has no noise, so that no fold of it has to be flattened: phase 1 leaves those that it has.
+  bool isExact = false;
   /// The finest mesh is known to have one component, which saves looking for small ones; the result is the same.
   bool isConnected = false;
   /// For Redecimation: where it remembers what removals cost, with others of the same s, and the vertices that these do

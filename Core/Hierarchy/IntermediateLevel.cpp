@@ -53,6 +53,7 @@ UniformOptions uniformOptions(double edgeLength, const HierarchyOptions& options
   UniformOptions uniform;
   uniform.edgeLength = 0.5 * edgeLength;
   uniform.curveTolerance = kCurveTolerance * edgeLength;
+  uniform.isExact = options.isExact;
   uniform.threads = options.threads;
   return uniform;
 }

@@ -197,9 +197,22 @@ void VertexRemoval::forbidChords()
   }
 }
 
+/// Least cosine between a face of the star, slivers aside, and its side's mean.
+double VertexRemoval::worstDeviation() const
+{
+  double worst = 1;
+  for (int i = 0; i < faces_; ++i)
+  {
+    const Vector3& n = normal_[index(i)];
+    const double dot = n.dot(sideNormal_[onCurve_ && i >= curveEnd_ ? 1 : 0]);
+    worst = n.isZero(0) ? worst : std::min(worst, dot);
+  }
+  return worst;
+}
+
 bool VertexRemoval::triangulate(const RemovalGuards& guards)
 {
-  leastDot_ = guards.minimumNormalDot;
+  leastDot_ = std::min(guards.minimumNormalDot, guards.allowOldFolds ? worstDeviation() : 1.0);
   std::fill(forbidden_.begin(), forbidden_.begin() + ringSize_, std::uint64_t{ 0 });
   leastPlanar_ = std::clamp(0.3 * starQuality_, 1e-6, kMinimumPlanarQuality) / kEquilateral;
   mostHarmonic_ = 1 / std::clamp(0.95 * starQuality_, 1e-6, guards.minimumQuality);

@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "Hierarchy/StarRemoval.h"
 
 #include <algorithm>
@@ -136,6 +137,17 @@ void UniformDecimation::run()
     return;
   }
   finish(last);
+  if (options_.isExact)
+  {
+    return;
+  }
+  // Noise of scans folds the surface; a star that is folded itself may be replaced by one that is no worse.
+  guards_.allowOldFolds = true;
+  idle_.clear(); // they have copies of the guards
+  const std::size_t before = alive_.size();
+  countTry(Try::OldFolds);
+  finish(last);
+  countTryLed(Try::OldFolds, alive_.size() < before ? 1 : 0);
 }
 
 /// Parallel rounds while they pay, then serial ones, which also reach what sits at the borders of the blocks.

@@ -32,6 +32,7 @@ struct UniformOptions
   std::vector<Index> candidates;
   /// Ends where few edges are still short in place of none, at borders of blocks and where stars are folded.
   bool isRough = false;
+  bool isExact = false; ///< see HierarchyOptions
   int threads = 0;
   ProgressCallback progress;
 };

@@ -39,6 +39,8 @@ struct RemovalGuards
   double minimumQuality = 0.15;
   /// Cosine of the largest deviation of a normal from those of the old faces at the same ring edges.
   double minimumNormalDot = 0.4;
+  /// Let new triangles deviate as far as the faces of the star do from their mean, where that is further.
+  bool allowOldFolds = false;
   int minimumValence = 4; ///< of free ring vertices, unless they had less before
   int maximumValence = 16;
   /// Allow faces whose three vertices lie on constrained curves (never two on one by a chord) where the star has
@@ -136,6 +138,7 @@ private:
   void forbidChords();
   bool isForbidden(int x, int y) const { return (forbidden_[index(x)] >> y & 1U) != 0; }
   void forbid(int x, int y);
+  double worstDeviation() const;
   bool triangulate(const RemovalGuards& guards);
   bool triangulatePolygon(const int* polygon, int count, const RemovalGuards& guards);
   void collectTriangles(const int* polygon, int i, int j);

@@ -320,6 +320,7 @@ HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
   options.cost = run.options.decimationCost;
   options.guides = surfaceGuides(*run.surface, run.options.threads).faces;
   options.keepVertices = plan.levels.keptVertices;
+  options.isExact = run.surface->facets.isDesigned;
   options.isConnected = run.surface->components == 1;
   options.threads = run.options.threads;
   options.progress = subProgress(run.options.progress, 0.15, 0.45, "Decimating: ");

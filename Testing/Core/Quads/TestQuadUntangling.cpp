@@ -85,13 +85,12 @@ struct Dart
 };
 
 /// Nine quads on a square with sides of 24, at vertices of the mesh. A sharp edge ends in a point of them at (x, 8),
-/// and the next point stands such that quads beside it are inverted or nearly so; further back along the edge none is.
+/// and the next point stands such that quads beside it are inverted or nearly so.
 struct FadingEdge
 {
   static constexpr Index kSide = 24, kEnd = 5;
   Mesh mesh;
   QuadMesh quads;
-  std::vector<Index> others; ///< vertices of the mesh but for the end
 
   FadingEdge(std::uint8_t flags, Index endX, std::array<Index, 2> next)
   {
@@ -126,13 +125,6 @@ struct FadingEdge
     }
     vertices[kEnd] = at(endX, 8);
     vertices[kEnd + 1] = at(next[0], next[1]);
-    for (Index v = 0; v < mesh.vertexCount(); ++v)
-    {
-      if (v != vertices[kEnd])
-      {
-        others.push_back(v);
-      }
-    }
     for (Index i = 0; i < 16; ++i)
     {
       quads.points.push_back(mesh.position[vertices[i]]);
@@ -280,31 +272,12 @@ TEST(QuadUntangling, WhatCannotBeMendedStaysAsItWas)
   expectSamePlaces(dart.quads, before);
 }
 
-// Where a detected sharp edge fades away is no place of its own; where one ends that was asked for is.
-TEST(QuadUntangling, EndsOfDetectedEdgesMoveAlongThem)
-{
-  FadingEdge detected(kFeatureEdge, 12, { 12, 4 });
-  const QuadMesh before = detected.quads;
-  const UntanglingResult result =
-    untangleQuads(detected.mesh, detected.quads, { detected.others, 1 });
-  EXPECT_EQ(result.invertedBefore, 2u);
-  EXPECT_EQ(result.invertedAfter, 0u);
-  const Vector3& end = detected.quads.points[FadingEdge::kEnd];
-  EXPECT_EQ(end.y(), 8);
-  EXPECT_LT(end.x(), 8);
-  EXPECT_GT(end.x(), 0);
-
-  FadingEdge asked(kFeatureEdge | kRequestedFeature, 12, { 12, 4 });
-  untangleQuads(asked.mesh, asked.quads, { asked.others, 1 });
-  expectSamePlaces(asked.quads, before);
-}
-
 TEST(QuadUntangling, MendsQuadsThatAreNearlyInverted)
 {
   FadingEdge edge(kFeatureEdge, 11, { 13, 5 });
   ASSERT_EQ(invertedCount(edge.quads), 0u);
   ASSERT_EQ(badQuads(edge.quads.points, edge.quads.quads).size(), 1u);
-  untangleQuads(edge.mesh, edge.quads, { edge.others, 1 });
+  untangleQuads(edge.mesh, edge.quads, {});
   EXPECT_TRUE(badQuads(edge.quads.points, edge.quads.quads).empty());
 }
 
