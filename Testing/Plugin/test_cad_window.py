@@ -36,8 +36,12 @@ def check_edge(session):
     session.edge = session.value("edge_length()")
     session.take("Move")
     session.settle()
-    balls = session.value(f"[b for b in visible_balls({test_draw.NEAR * session.edge}) if off_features(b[1]) == 0]")
-    if not balls:
+    for azimuth in range(30, 390, 60):  # towards a corner, which is no outline then
+        session.look(azimuth, 35)
+        balls = session.value(f"[b for b in visible_balls({session.edge}) if off_features(b[1]) == 0]")
+        if balls:
+            break
+    else:
         raise SystemExit("FAILED: no ball is seen at a sharp edge")
     (x, y), _ = balls[0]
     before = session.value("bytes_of(quads())")
