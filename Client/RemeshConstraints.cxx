@@ -292,6 +292,22 @@ std::vector<Place> irregularVertices(vtkSMSourceProxy* filter)
   return places;
 }
 
+bool isOnLine(vtkSMSourceProxy* filter, const Place& vertex)
+{
+  bool isIt = false;
+  forEach<vtkPolyData>(fetched(filter, kFeatureLines),
+    [&](vtkPolyData& data)
+    {
+      for (vtkIdType i = 0; i < data.GetNumberOfPoints() && !isIt; ++i)
+      {
+        Place place;
+        data.GetPoint(i, place.data());
+        isIt = place == vertex;
+      }
+    });
+  return isIt;
+}
+
 std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter)
 {
   constexpr int kPlacesAnEdge = 4;

@@ -64,6 +64,9 @@ bool setNumber(vtkSMSourceProxy* constraint, const char* property, int value);
 /// The places of the irregular vertices of the quads that are there.
 std::vector<Place> irregularVertices(vtkSMSourceProxy* filter);
 
+/// Whether a vertex of the quads is on a feature or boundary, where it stays.
+bool isOnLine(vtkSMSourceProxy* filter, const Place& vertex);
+
 /// Places on the feature curves of the quads that are there, four to an edge.
 std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter);
 

@@ -618,7 +618,11 @@ void pqQuadrilleDrawing::grasp()
     ? this->ballAt(
         filter, this->Path.front(), "There is no ball here: press on a ball and drag it.")
     : std::nullopt;
-  if (ball)
+  if (ball && quadrille::isOnLine(filter, *ball))
+  {
+    say("This ball is on a feature or boundary, whose vertices stay: drag one beside it.");
+  }
+  else if (ball)
   {
     this->Ball = { filter, *ball, quadrille::irregularVertices(filter),
       quadrille::HeldSurface(this->Surface), quadrille::edgeLength(filter).value_or(0), nullptr,

@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Error.h"
+#include "Base/InvalidElement.h"
 #include "Base/InvalidPolygon.h"
 #include "Blocks/Blocks.h"
 #include "Blocks/LevelMemory.h"
@@ -275,6 +276,34 @@ int vtkQuadRemesh::RequestData(
   return isMade;
 }
 
+namespace
+{
+
+/// The middle of the cell, or the point, that an error is of.
+quadrille::Vector3 placeOf(vtkPolyData* input, const quadrille::InvalidElement& error)
+{
+  if (error.kind() == quadrille::InvalidElement::Kind::Cell)
+  {
+    return quadrille::middleOf(input, error.id());
+  }
+  quadrille::Vector3 place;
+  input->GetPoint(error.id(), place.data());
+  return place;
+}
+
+/// For the output Problems of the block.
+vtkSmartPointer<vtkPolyData> problemAt(const quadrille::Block& block,
+  const quadrille::Vector3& place, const quadrille::InvalidInput& error)
+{
+  quadrille::Problems problems;
+  problems.failed = { place };
+  problems.surface = block.state->lastResult.empty() ? block.input() : nullptr;
+  problems.words = { error.what() };
+  return quadrille::writeProblems(problems);
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 void vtkQuadRemesh::Execute(quadrille::Block& block)
 {
@@ -292,12 +321,14 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     {
       if (run->converted)
       {
-        quadrille::Problems problems;
-        problems.failed = { quadrille::middleOf(input, run->converted->cell(error.polygon())) };
-        problems.surface = block.state->lastResult.empty() ? input : nullptr;
-        problems.words = { error.what() };
-        block.output(GetProblemPort())->ShallowCopy(quadrille::writeProblems(problems));
+        const auto place = quadrille::middleOf(input, run->converted->cell(error.polygon()));
+        block.output(GetProblemPort())->ShallowCopy(problemAt(block, place, error));
       }
+      throw;
+    }
+    catch (const quadrille::InvalidElement& error)
+    {
+      block.output(GetProblemPort())->ShallowCopy(problemAt(block, placeOf(input, error), error));
       throw;
     }
   }

@@ -505,6 +505,57 @@ TEST(QuadRemeshFailure, MarksThePolygonWhereABandIsTwisted)
   EXPECT_NEAR(least, 0, 1e-20); // rounding of sums of four
 }
 
+TEST(QuadRemeshFailure, MarksWhereAnArrayHasAValueThatCannotBe)
+{
+  constexpr vtkIdType kWrong = 7;
+  for (const bool isOfCell : { false, true })
+  {
+    const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::gridPlane(6, 6));
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(isOfCell ? "GuidingWeight" : "Sizing");
+    values->SetNumberOfTuples(isOfCell ? input->GetNumberOfCells() : input->GetNumberOfPoints());
+    values->Fill(1);
+    values->SetValue(kWrong, -1);
+    if (isOfCell)
+    {
+      vtkNew<vtkDoubleArray> directions;
+      directions->SetName("GuidingDirection");
+      directions->SetNumberOfComponents(3);
+      directions->SetNumberOfTuples(input->GetNumberOfCells());
+      directions->Fill(1);
+      input->GetCellData()->AddArray(directions);
+      input->GetCellData()->AddArray(values);
+    }
+    else
+    {
+      input->GetPointData()->AddArray(values);
+    }
+    vtkNew<vtkQuadRemesh> filter;
+    const test::Messages messages(filter);
+    run(filter, input, 40);
+    EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+    EXPECT_EQ(countProblems(filter)[0], input->GetNumberOfCells());
+    ASSERT_EQ(countProblems(filter)[1], 1);
+    auto* problems = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(8));
+    const double* mark = problems->GetPoint(problems->GetCell(0)->GetPointId(0));
+    double place[3] = { 0, 0, 0 };
+    if (isOfCell)
+    {
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        vtkMath::Add(place, input->GetPoint(input->GetCell(kWrong)->GetPointId(corner)), place);
+      }
+      vtkMath::MultiplyScalar(place, 1.0 / 3);
+    }
+    else
+    {
+      input->GetPoint(kWrong, place);
+    }
+    EXPECT_NEAR(
+      vtkMath::Distance2BetweenPoints(mark, place), 0, 1e-20); // rounding of sums of three
+  }
+}
+
 TEST(QuadRemeshFailure, ShowsTheInputWhereNothingElseIs)
 {
   const vtkSmartPointer<vtkPolyData> input = sphereAndOneWithoutMap();

@@ -4,6 +4,7 @@
 import os
 
 import quadrille  # the raw classes behind the proxies
+import quick_start  # before simple
 from paraview import simple
 from paraview.modules.vtkRemotingSettings import vtkPVGeneralSettings
 from vtkmodules.vtkCommonCore import reference

@@ -42,8 +42,10 @@ class Window:
         self.question = folder / "question"
         self.actions = []
         self.origin = (0, 0)
+        self.touched = False  # by mouse or keyboard, since it was asked
 
     def xdotool(self, *words):
+        self.touched = True
         subprocess.run(["xdotool", *[str(w) for w in words]], env=dict(os.environ, DISPLAY=self.display), check=True)
 
     def resize(self, width, height, seconds=60):
@@ -61,7 +63,9 @@ class Window:
 
     def ask(self, code, seconds=60):
         """What the code prints in the window; it is idle then."""
-        time.sleep(0.15)  # the window takes up what was done before
+        if self.touched:
+            time.sleep(0.15)  # the window manager hands on what was done before
+            self.touched = False
         part = self.folder / "question.part"
         part.write_text(code, encoding="utf-8")
         part.rename(self.question)
@@ -70,7 +74,7 @@ class Window:
         while not answer.exists():
             if time.time() > end:
                 raise SystemExit("FAILED: the window does not answer")
-            time.sleep(0.05)
+            time.sleep(0.005)
         text = answer.read_text(encoding="utf-8")
         answer.unlink()
         if text.startswith("FAILED"):

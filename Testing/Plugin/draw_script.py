@@ -19,7 +19,7 @@ import window_answers
 from places_script import edge_length, is_clear, output, pixel_of, quads, seen_at, view
 
 
-COVERED = 280  # pixels at the lower end of the view, where the window Output Messages may lie
+COVERED = 200  # pixels at the lower end of the view, where the window Output Messages may lie
 
 
 def quad_arrays():

@@ -87,7 +87,7 @@ def own_files(folder):
     round_points, round_cells = ball(40)
     asked = "".join(f"{bits}\n" for bits in test_problems.spanning_tree(round_cells))
     yield legacy(folder / "many_features.vtk", round_points, round_cells,
-                 more=f"CELL_DATA {len(round_cells)}\nFIELD arrays 1\nFeatureEdges 1 {len(round_cells)} unsigned_char\n"
+                 more=f"CELL_DATA {len(round_cells)}\nSCALARS FeatureEdges unsigned_char 1\nLOOKUP_TABLE default\n"
                  + asked), 20
     yield legacy(folder / "wrong_array.vtk", points, cells,
                  more="POINT_DATA %d\nSCALARS TargetValence double 1\nLOOKUP_TABLE default\n" % len(points)

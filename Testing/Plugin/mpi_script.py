@@ -7,10 +7,8 @@ import re
 import sys
 
 import quadrille  # the classes behind the proxies
-from paraview import servermanager
-# More than half of a rank's start would go into the help texts of all filters, of simple and again of LoadPlugin.
-servermanager.ProxyNamespace.getDocumentation = lambda self, name: ""
-from paraview import simple
+import quick_start  # before simple
+from paraview import servermanager, simple
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 

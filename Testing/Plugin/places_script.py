@@ -9,6 +9,7 @@ import os
 
 import numpy
 import quadrille  # the raw classes behind the proxies
+import quick_start  # before simple
 from paraview import simple, smstate, smtrace
 from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator

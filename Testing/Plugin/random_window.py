@@ -3,14 +3,15 @@
 """Random sessions with the drawing tools in ParaView's real window, replayed elsewhere: same bytes.
 
   random_window.py XVFB PARAVIEW PVPYTHON PVBATCH PVSERVER MPIEXEC OPENBOX [--sessions N] [--edits N] [--seed N]
-                   [--first N] [--surface FILE...]
+                   [--first N] [--surface FILE...] [--kinds KIND...]
 
-A session: a surface is opened, quads are made, and random tools draw at random visible places, with *Remove Last*,
-dragged points, undo, redo and another *Number Of Quads* among them and an undo at last, all recorded. Its trace, and
-the state saved at last as .pvsm and as .py, are run in pvpython, in pvbatch on two ranks, and in pvpython through a
-server. What has other bytes, or other constraints, is told with BAD. *Rank Independent* is *Always* by defaults that
-this window has and the replays have not: a surface in one piece keeps its own order else, and ranks have another one.
-All random choices come from the seed. ctest runs one short session; needs Debian's openbox and xdotool.
+A session: a surface is opened, quads are made by the first button of the tool bar, and random tools draw at random
+visible places, with *Remove Last*, dragged points, sources of constraints made by keyboard, undo, redo and another
+*Number Of Quads* among them and an undo at last, all recorded. --kinds says what is done in place of random edits. Its
+trace, and the state saved at last as .pvsm and as .py, are run in pvpython, in pvbatch on two ranks, and in pvpython
+through a server. What has other bytes, or other constraints, is told with BAD. *Rank Independent* is *Always* by
+defaults that this window has and the replays have not: a surface in one piece keeps its own order else, and ranks have
+another one. All random choices come from the seed. ctest runs one short session; needs Debian's openbox and xdotool.
 """
 import argparse
 import json
@@ -31,9 +32,10 @@ import test_draw
 import test_places
 
 DRAWN = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature", "Size", "Clear")
-BUTTONS = ("Remove", "Undo", "Redo", "Number", "Drag")
+BUTTONS = ("Remove", "Undo", "Redo", "Number", "Drag", "Source")
 DEFAULTS = {"filters": {"QuadRemesh": {"RankIndependent": 1}}}  # as a user saves them by the panel's button
 NUMBERS = (1500, 3000, 4000, 6000)  # of quads
+SOURCES = {"Quad Stroke": 3, "Quad Valence": 1, "Quad Move": 2, "Quad Feature Curve": 3}  # and their points
 
 
 class Session(test_draw.Session):
@@ -63,9 +65,9 @@ class Session(test_draw.Session):
             raise SystemExit("FAILED: the typed number of quads did not come in")
 
     def drag_point(self, chance):
-        """A point of the last constraint, by its ring; whether it is seen."""
+        """A point of the last constraint, by its ring; whether it is seen, and moves."""
         self.ask("simple.SetActiveSource(list(quads().Constraints)[-1])")
-        time.sleep(0.5)
+        before = self.value("constraints()[-1]")
         for _ in range(10):
             test_places.random_view(self, chance)
             found = self.value("point_seen()")
@@ -74,7 +76,15 @@ class Session(test_draw.Session):
                 self.drag([found, *[p[0] for p in places]])
                 break
         self.ask("simple.SetActiveSource(quads())")
-        return bool(found)
+        return self.value("constraints()[-1]") != before
+
+    def put_source(self, chance):
+        """A constraint by keyboard, as the guide has it without tools."""
+        name = chance.choice(list(SOURCES))
+        test_places.random_view(self, chance)
+        self.put(name, self.places(chance, SOURCES[name]))
+        self.ask("simple.SetActiveSource(quads())")
+        return name
 
 
 def edit(session, chance, first, kind=None):
@@ -85,11 +95,13 @@ def edit(session, chance, first, kind=None):
             (kind in ("Remove", "Drag") and not session.value("len(constraints())")):
         return None
     if kind in ("Undo", "Redo"):
-        session.xdotool("mousemove", *session.middle(), "key", "ctrl+z" if kind == "Undo" else "ctrl+y", "sleep", 1)
+        session.xdotool("mousemove", *session.middle(), "key", "ctrl+z" if kind == "Undo" else "ctrl+y")
     elif kind == "Remove":
-        session.xdotool("mousemove", *session.remove, "sleep", 0.2, "click", 1, "sleep", 0.5)
+        session.xdotool("mousemove", *session.remove, "sleep", 0.2, "click", 1)
     elif kind == "Drag":
         kind = kind if session.drag_point(chance) else None
+    elif kind == "Source":
+        kind = session.put_source(chance)
     elif kind == "Number":
         session.set_number(chance.choice([n for n in NUMBERS if n != session.value("quads().NumberOfQuads")]))
     else:
@@ -125,19 +137,22 @@ def session_of(folder, options, number):
     try:
         session.start()
         session.ask(f"set_defaults({json.dumps(DEFAULTS)!r}); smtrace.start_trace()")
-        session.open()
+        session.open_surface()
         session.find_tools()
+        if test_draw.check_bar(session):
+            raise SystemExit("FAILED: the tool bar, see above")
         begun, first = session.value("bytes_of(quads())"), session.steps()[0]
         words = []
-        for _ in range(10 * options.edits):
-            if len(words) < options.edits:
-                word = edit(session, chance, first)
+        wanted = len(options.kinds) or options.edits
+        for kind in options.kinds or [None] * 10 * options.edits:
+            if len(words) < wanted:
+                word = edit(session, chance, first, kind)
                 words += [word] if word else []
         # Each edit writes all constraints into a trace, so only what comes last shows whether an undo is in it.
         words.append(edit(session, chance, first, "Undo"))
         made = *session.value("bytes_of(quads())"), len(session.value("constraints()"))
         print(f"session {number}, {session.surface.name}: {', '.join(words)}; made {made}", flush=True)
-        if len(words) < options.edits or (made[:2] == begun and made[2] > 0):
+        if len(words) < wanted + 1 or (made[:2] == begun and made[2] > 0):
             raise SystemExit("FAILED: there were too few edits, or they changed nothing")
         paths = [folder / name for name in ("trace.py", "state.pvsm", "state.py")]
         paths[0].write_text(session.value("smtrace.stop_trace()"), encoding="utf-8")
@@ -203,6 +218,7 @@ def main():
         parser.add_argument("--" + what, type=int, default=count)
     data = pathlib.Path(os.environ["QUADRILLE_DATA"])
     parser.add_argument("--surface", nargs="+", type=pathlib.Path, default=[data / "beast.ply", data / "part.ply"])
+    parser.add_argument("--kinds", nargs="*", default=(), choices=(*DRAWN, *BUTTONS))
     options = parser.parse_args()
     bad = 0
     for number in range(options.first, options.first + options.sessions):

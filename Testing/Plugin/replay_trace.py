@@ -9,6 +9,7 @@ import pathlib
 import sys
 
 import quadrille  # the raw classes behind the proxies
+import quick_start  # before simple
 from paraview import simple
 
 import window_answers

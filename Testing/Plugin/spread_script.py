@@ -572,8 +572,8 @@ def kinds():
 
 def pipeline():
     """Between filters of ParaView: surfaces as its sources and filters cut them, and filters that use the quads."""
-    from paraview import servermanager, simple
-    servermanager.ProxyNamespace.getDocumentation = lambda self, name: ""  # half of a rank's start
+    import quick_start  # before simple
+    from paraview import simple
     from plugin_common import DATA, PLUGIN
     simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
 

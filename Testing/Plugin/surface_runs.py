@@ -10,6 +10,7 @@ import time
 
 import numpy
 
+import quick_start  # before simple
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 

@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 
+import quick_start  # before simple
 from paraview import simple
 
 from plugin_common import PLUGIN, check, size_of

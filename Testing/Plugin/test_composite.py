@@ -4,6 +4,7 @@
 import os
 
 import quadrille  # the classes behind the proxies
+import quick_start  # before simple
 from paraview import simple
 
 from plugin_common import ARTIFACTS, PLUGIN, check, size_of

@@ -6,6 +6,7 @@ import tempfile
 
 import numpy
 import quadrille
+import quick_start  # before simple
 from paraview import servermanager, simple
 from plugin_common import DATA, PLUGIN, check
 from vtkmodules.util.numpy_support import vtk_to_numpy

@@ -3,13 +3,13 @@
 """The drawing tools in ParaView's real window, under openbox at its defaults, by the mouse at random places.
 
   test_draw.py XVFB PARAVIEW PVPYTHON OPENBOX [--tools NAME...] [--places N] [--surface FILE...] [--seed N]
-               [--quads N] [--checks NAME...] [--server WORD...]
+               [--quads N] [--checks NAME...] [--size WIDTH HEIGHT] [--server WORD...]
 
 Opens each surface and makes quads by keyboard. With each tool so many random places, or paths, are drawn where the
 surface is clearly seen. Then the constraint, and the quads, are compared with the places under the mouse, which rays
 from the camera tell: half an edge length of the quads is allowed. What the table of constraints says is compared with
-the quads themselves. Then it is tried that Escape leaves the tool, and that one undo takes back one action. At last a
-session is traced, and the trace run in pvpython: same bytes. With --server the window is connected to what these words
+the quads themselves. Then it is tried that Escape leaves the tool, that one undo takes back one action, that what
+test_places.py looks at holds here, too, and more (CHECKS). With --server the window is connected to what these words
 start, such as pvserver.
 Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox and xdotool.
 """
@@ -35,9 +35,10 @@ MET_OFF = 0.3    # edge lengths, as the table has it for feature curves
 DOUBT = 2.5      # degrees in which two ways to measure the mean may differ
 WIDTH = count_actions.WIDTH
 FILE_MENU = 20, 10      # pixels of the screen
-CLOSE_VIEW = 1864, 222
+CLOSE_VIEW = 16, 222    # from the right end of the window
 SELECTED = bytes((48, 140, 198))  # of the pipeline
-COVERED = 280  # pixels at the lower end of the view, where the window Output Messages may lie
+BUSY = 80000  # quads: an edit of them takes seconds, in which something else can be done
+COVERED = 200  # pixels at the lower end of the view, where the window Output Messages may lie
 TOOLS = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature", "Size")  # in their order
 
 
@@ -62,7 +63,7 @@ class Session(test_places.Session):
 
     def take(self, name):
         """Presses the button of a tool; pressed again it leaves it."""
-        self.xdotool("mousemove", *self.tools[name], "sleep", 0.2, "click", 1, "sleep", 0.2)
+        self.xdotool("mousemove", *self.tools[name], "sleep", 0.05, "click", 1)
         self.ask("pass")
 
     def drag(self, pixels):
@@ -303,15 +304,16 @@ def try_tool(session, name, chance, count):
 def check_escape(session, chance):
     """After Escape, and after a second press of the button, the left button moves the camera and draws nothing."""
     bad = 0
+    session.ask("clear()")
+    session.look(270, 20)
+    pixels = [pixel for pixel, _ in session.places(chance, 2)]
     for name, way in [(name, "Escape") for name in TOOLS] + [("Stroke", "button")]:
-        session.ask("clear()")
         session.look(270, 20)
         session.take(name)
         if way == "Escape":
-            session.xdotool("mousemove", *session.screen(session.places(chance, 1)[0][0]), "key", "Escape")
+            session.xdotool("mousemove", *session.screen(pixels[0]), "key", "Escape")
         else:
             session.take(name)
-        pixels, _ = session.path(chance)
         camera = session.value("list(view.CameraPosition)")
         session.drag(pixels)
         left = session.drawn() is None and session.value("list(view.CameraPosition)") != camera
@@ -354,7 +356,6 @@ def check_undo(session, chance):
         states = []
         for key in ("ctrl+z", "ctrl+y"):
             session.xdotool("key", key)
-            time.sleep(1)
             session.settle()
             states.append((session.value("bytes_of(quads())"), len(session.value("constraints()"))))
         fine = count == 1 and made != before and states == [(before, 0), (made, 1)]
@@ -390,7 +391,7 @@ def check_bar(session):
     coloured = [saturation(session, name) for name in TOOLS]
     session.shot("draw-bar-quads")
     for key, there in (("ctrl+z", False), ("ctrl+y", True)):
-        session.xdotool("mousemove", *session.middle(), "key", key, "sleep", 1)
+        session.xdotool("mousemove", *session.middle(), "key", key)
         session.settle()
         if session.value("quads() is not None") != there:
             print(f"BAD: after {key} there is {'no' if there else 'still a'} Quad Remesh")
@@ -432,7 +433,7 @@ def check_handles(session, chance, count):
         whole = session.value("is_whole()")
         met, reason = session.word("valence") or (None, "no row")
         after = ring_pixels(session, goal)
-        session.xdotool("mousemove", *session.middle(), "key", "ctrl+z", "sleep", 1)
+        session.xdotool("mousemove", *session.middle(), "key", "ctrl+z")
         session.settle()
         back = session.value("bytes_of(quads())") == before
         fine = off <= ALLOWED and whole and followed > 0 and ring > 15 and after > 15 and back
@@ -465,12 +466,17 @@ def check_ball(session, chance):
     return not fine
 
 
+def make_busy(session):
+    """No constraints, and so many quads that those of an edit are not there at once."""
+    session.ask(f"clear(); quads().NumberOfQuads = {BUSY}; simple.Render(view)", seconds=120)
+    session.look(270, 20)
+
+
 def check_stop(session, chance):
     """Escape while quads are made stops them and takes the action back; so does a newer one, which is made."""
     bad = 0
     for way in ("Escape", "another one"):
-        session.ask("clear(); quads().NumberOfQuads = 60000; simple.Render(view)", seconds=120)
-        session.look(270, 20)
+        make_busy(session)
         before = session.value("bytes_of(quads())")
         session.take("Valence")
         pixels = [p[0] for p in session.places(chance, 2)]
@@ -485,7 +491,6 @@ def check_stop(session, chance):
         session.xdotool("key", "Escape")
         print(f"quads that are being made and {way}: {count} constraints: {'fine' if fine else 'BAD'}", flush=True)
         bad += not fine
-    session.ask("clear(); quads().NumberOfQuads = 5000; simple.Render(view)")
     return bad
 
 
@@ -501,8 +506,7 @@ def save_dialogs(session):
 
 def check_save(session, chance):
     """While quads are made those from before cannot be saved by Save Data; afterwards the new ones can."""
-    session.ask("clear(); quads().NumberOfQuads = 150000; simple.Render(view)", seconds=120)
-    session.look(270, 20)
+    make_busy(session)
     session.take("Valence")
     session.xdotool("mousemove", *session.screen(session.places(chance, 1)[0][0]), "sleep", 0.2, "click", 1)
     session.wait_until("not is_made()")
@@ -511,23 +515,22 @@ def check_save(session, chance):
     session.settle()
     afterwards = save_dialogs(session)
     session.xdotool("key", "Escape")
-    session.ask("clear(); quads().NumberOfQuads = 5000; simple.Render(view)")
     print(f"Save Data while quads are made ({underway}): {meanwhile} dialogs, afterwards {afterwards}")
     return not (underway and meanwhile == 0 and afterwards == 1)
 
 
 def check_delete(session, chance):
     """A Quad Remesh that is deleted while its quads are made is gone, and one undo brings it back."""
-    session.ask("clear(); quads().NumberOfQuads = 150000; simple.Render(view)", seconds=120)
-    session.look(270, 20)
+    make_busy(session)
     session.take("Valence")
-    session.xdotool("mousemove", *session.screen(session.places(chance, 1)[0][0]), "sleep", 0.2, "click", 1)
+    place = session.screen(session.places(chance, 2)[1][0])  # not that of the check before, which is remembered
+    session.ask("simple.SetActiveSource(quads().Input)")
+    session.xdotool("mousemove", *place, "sleep", 0.2, "click", 1)
     session.wait_until("not is_made()")
-    session.ask("simple.SetActiveSource(quads())")
-    time.sleep(0.3)
+    session.ask("simple.SetActiveSource(quads())")  # its row has the colour of what is selected then
     rows = session.rows()
-    selected = [(x, y) for y in range(200, 420) for x in range(30, 280, 4) if rows[y][3 * x:3 * x + 3] == SELECTED]
-    session.xdotool("mousemove", *selected[len(selected) // 2], "click", 1, "sleep", 0.1)
+    x, y = next((x, y) for y in range(200, 420) for x in range(30, 280, 4) if rows[y][3 * x:3 * x + 3] == SELECTED)
+    session.xdotool("mousemove", x + 20, y + 8, "click", 1, "sleep", 0.1)  # the upper one, below which is the output
     underway = not session.value("is_made()")
     session.xdotool("key", "Delete", "sleep", 1)
     gone = session.value("quads() is None")
@@ -547,7 +550,7 @@ def check_close(session):
     if session.remote:
         session.xdotool("mousemove", *FILE_MENU, "click", 1, "sleep", 0.5, "key", "d", "sleep", 0.5, "key", "Return")
     else:
-        session.xdotool("mousemove", *CLOSE_VIEW, "sleep", 0.2, "click", 1)
+        session.xdotool("mousemove", session.size[0] - CLOSE_VIEW[0], CLOSE_VIEW[1], "sleep", 0.2, "click", 1)
     for _ in range(8 if session.remote else 1):  # to leave a server takes seconds on a busy machine
         time.sleep(3)
         grey = [saturation(session, name) for name in TOOLS]
@@ -567,48 +570,13 @@ def ring_pixels(session, pixel):
                if rows[v][3 * u] > 230 and 110 < rows[v][3 * u + 1] < 170 and rows[v][3 * u + 2] < 60)
 
 
-def check_trace(folder, options, chance):
-    """A session of its own, recorded from File > Open on, makes the same quads in pvpython."""
-    place = folder / "trace"
-    place.mkdir()
-    session = Session(place, options)
-    try:
-        session.start()
-        session.ask("smtrace.start_trace()")
-        session.open_surface()
-        session.find_tools()
-        bad = check_bar(session)
-        session.look(270, 20)
-        for name in ("Stroke", "Valence"):
-            session.take(name)
-            ACTIONS[name](session, chance)
-        session.take("Valence")
-        session.ask("simple.SetActiveSource(list(quads().Constraints)[-1])")
-        start = tuple(round(c) for c in session.value("pixel_of(constraints()[-1][1][0])"))
-        before = session.drawn()[1]
-        session.drag([start, *[p[0] for p in session.places(chance, 1)]])
-        if session.drawn()[1] == before:
-            print("BAD: the point of a valence was not dragged")
-            bad += 1
-        made = *session.value("bytes_of(quads())"), len(session.value("constraints()"))
-        path = place / "trace.py"
-        path.write_text(session.value("smtrace.stop_trace()"), encoding="utf-8")
-        environment = count_actions.environment_of(session)
-    finally:
-        session.close()
-    again = test_places.replay(path, options.pvpython, options, environment)
-    print(f"trace: made {made}, replayed {again}", flush=True)
-    if made != again or made[2] != 2:
-        print(path.read_text(encoding="utf-8"))
-        return bad + 1
-    return bad
-
-
-#: Each with a session, random choices and a number of places.
+#: Each with a session, random choices and a number of places. The last ones have many quads.
 CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _: check_camera(s, c),
-          "undo": lambda s, c, _: check_undo(s, c), "ball": lambda s, c, _: check_ball(s, c),
+          "undo": lambda s, c, _: check_undo(s, c), "ball": lambda s, c, _: check_ball(s, c), "handles": check_handles,
+          "picks": lambda s, c, n: test_places.check_picks(s, c, 3 * n),
+          "strokes": lambda s, c, n: test_places.check_strokes(s, c, 2 * n),
+          "selection": lambda s, c, _: test_places.check_selection(s, c),
           "stop": lambda s, c, _: check_stop(s, c), "save": lambda s, c, _: check_save(s, c),
-          "handles": check_handles,
           "delete": lambda s, c, _: check_delete(s, c), "close": lambda s, c, _: check_close(s)}
 
 
@@ -617,14 +585,15 @@ def main():
     for program in ("xvfb", "paraview", "pvpython", "openbox"):
         parser.add_argument(program)
     parser.add_argument("--tools", nargs="*", default=TOOLS)
-    parser.add_argument("--checks", nargs="*", choices=[*CHECKS, "trace"], default=[*CHECKS, "trace"])
+    parser.add_argument("--checks", nargs="*", choices=CHECKS, default=[*CHECKS])
     parser.add_argument("--server", nargs="+", default=())
     parser.add_argument("--places", type=int, default=20)
+    parser.add_argument("--size", nargs=2, type=int, default=Session.size, help="of the window")
     parser.add_argument("--quads", type=int, help="fewer show more balls clearly where the surface fills the view")
     parser.add_argument("--seed", type=int, default=35)
     parser.add_argument("--surface", nargs="+", type=pathlib.Path, default=[test_places.SURFACE])
     options = parser.parse_args()
-    Session.pvserver = options.server
+    Session.pvserver, Session.size = options.server, tuple(options.size)
     bad = 0
     for surface in options.surface:
         with tempfile.TemporaryDirectory() as folder:
@@ -647,9 +616,6 @@ def main():
             finally:
                 print((folder / "log").read_text(encoding="utf-8"))
                 session.close()
-    if "trace" in options.checks:
-        with tempfile.TemporaryDirectory() as folder:
-            bad += check_trace(pathlib.Path(folder), options, random.Random(options.seed + 2))
     if bad:
         sys.exit(f"FAILED: {bad} of the checks above")
     print("drawing: fine")

@@ -40,11 +40,10 @@ class Session(test_draw.Session):
         words = [x for x in range(count_actions.WIDTH // 2)
                  if any(max(rows[y][3 * x:3 * x + 3]) < 90 for y in MENU_BAR)]
         below = 34 + entry * ENTRY + (2 if entry else 0)
-        self.xdotool("mousemove", words[-1] - 10, 10, "sleep", 0.2, "click", 1, "sleep", 0.7,
-                     "mousemove_relative", 30, 24, "sleep", 0.2, "click", 1, "sleep", 0.7)
-        self.xdotool("mousemove", words[-1] + 360, below, "sleep", 0.3, "click", 1, "sleep", 0.5)
+        self.xdotool("mousemove", words[-1] - 10, 10, "sleep", 0.2, "click", 1, "sleep", 0.4,
+                     "mousemove_relative", 30, 24, "sleep", 0.2, "click", 1, "sleep", 0.4)
+        self.xdotool("mousemove", words[-1] + 360, below, "sleep", 0.2, "click", 1)
         self.settle()
-        time.sleep(0.5)
 
     def strip(self):
         """What the tutorial's strip looks like."""
@@ -92,7 +91,7 @@ def tutorial(session):
              ("a drag", lambda: draw_stroke(session), True), ("Move", lambda: session.take("Move"), True),
              ("a click beside the balls", lambda: session.press((30, 30)), False),
              ("a drag of a ball", lambda: drag_ball(session), True),
-             ("Ctrl+Z", lambda: session.xdotool("key", "ctrl+z", "sleep", 1), True),
+             ("Ctrl+Z", lambda: session.xdotool("key", "ctrl+z"), True),
              ("Escape", lambda: session.xdotool("key", "Escape"), True))
     for number, (what, action, wanted) in enumerate(steps):
         check(session.goes_on(what, action) == wanted,
@@ -123,7 +122,6 @@ def example(session, number, name):
     session.help(number)
     session.wait_until("quads() is not None and output(0).GetNumberOfCells() > 0")
     session.wait_until("is_made()", seconds=120)
-    time.sleep(1)
     session.shot("first-example-" + str(number))
     question, wanted = LOOKS[name]
     there = session.value(question)
@@ -141,7 +139,7 @@ def delete_all(session):
 
 
 def press_key(session, key):
-    session.xdotool("mousemove", *session.middle(), "key", key, "sleep", 1.5)
+    session.xdotool("mousemove", *session.middle(), "key", key)
     session.settle()
 
 

@@ -77,7 +77,7 @@ def main():
                 failure = "the window's script did not come to its end"
             elif failed.exists():
                 failure = failed.read_text()
-            time.sleep(5)  # the window paints its panels after the script
+            time.sleep(2)  # the window paints its panels after the script
             rows = read_xwd(folder / "Xvfb_screen0")
             write_png(ARTIFACTS / "gui.png", rows)
             if window.poll() is not None:

@@ -91,6 +91,27 @@ marked = simple.Calculator(Input=mesh, AttributeType="Cell Data", ResultArrayNam
 marked.UpdatePipeline()
 check(QuadRemesh(Input=marked).PatchArray == "PatchId", "PatchId is not chosen where it is there")
 
+# Another array is for the user to choose, also where it is the active one of a file, and known as such.
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "active.vtk")
+    with open(path, "w") as file:
+        file.write("# vtk DataFile Version 3.0\ntwo colours\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n0 0 0 1 0 0\n"
+                   "1 1 0 0 1 0\nPOLYGONS 2 8\n3 0 1 2\n3 0 2 3\nCELL_DATA 2\nSCALARS Colour int 1\n"
+                   "LOOKUP_TABLE default\n0\n1\n")
+    coloured = simple.OpenDataFile(path)
+    coloured.UpdatePipeline()
+    for make, names in ((QuadRemesh, ("PatchArray", "GuideArray")), (DecimationHierarchy, ("PatchArray", "GuideArray")),
+                        (QuadExtraction, ("PatchArray",))):
+        asked = make(Input=coloured)
+        chosen = [name for name in names if getattr(asked, name) != "(none)"]
+        check(not chosen, f"{chosen} of {make.__name__} is chosen, though by nobody")
+    of_coloured = QuadRemesh(Input=coloured, NumberOfQuads=50)
+    borders = []
+    for of_coloured.PatchArray in ("(none)", "Colour"):
+        of_coloured.UpdatePipeline()
+        borders.append(of_coloured.CellData["FeatureEdges"].GetRange()[1] > 0)
+    check(borders == [False, True], f"borders without and with the array: {borders}")
+
 # A curve as second input becomes a line between quads; without it there are only boundary lines.
 plane = simple.Triangulate(Input=simple.Plane(XResolution=20, YResolution=20))
 curve = simple.PolyLineSource(Points=[-0.5, 0.0, 0.0, 0.5, 0.0, 0.0])

@@ -6,6 +6,7 @@ import sys
 import tempfile
 import traceback
 
+import quick_start  # before simple
 from paraview import servermanager, simple
 from vtkmodules.vtkCommonCore import vtkLogger
 

@@ -3,6 +3,7 @@
 """A state file keeps the filter with its properties, and loads once the plugin is there."""
 import os
 
+import quick_start  # before simple
 from paraview import simple
 
 from plugin_common import ARTIFACTS, PLUGIN, check, size_of, surface

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 """What a view shows is current also after a failure: ParaView 5.11 alone would show the quads before it for ever."""
+import quick_start  # before simple
 from paraview import simple
 
 from plugin_common import PLUGIN, check, size_of, surface

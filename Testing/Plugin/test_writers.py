@@ -5,6 +5,7 @@ import os
 import pathlib
 import tempfile
 
+import quick_start  # before simple
 from paraview import servermanager, simple
 
 from plugin_common import DATA, PLUGIN, check, surface
