@@ -135,6 +135,12 @@ def main():
         x, y = k % columns, rows - 1 - k // columns
         viewport = (x / columns, y / rows, (x + 1) / columns, (y + 1) / rows)
         window.AddRenderer(renderer(path, viewport, asked.sharp))
+    for k in range(len(asked.meshes), rows * columns):
+        blank = vtk.vtkRenderer()
+        blank.SetBackground(1, 1, 1)
+        x, y = k % columns, rows - 1 - k // columns
+        blank.SetViewport(x / columns, y / rows, (x + 1) / columns, (y + 1) / rows)
+        window.AddRenderer(blank)
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
     grab.SetInput(window)
