@@ -101,10 +101,10 @@ void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& res
   }
 }
 
-/// Why no other attempt was made though the quads leave something to be wished.
-void tellEnd(const History& history, RemeshResult& result)
+/// Why no other attempt was made though the quads leave something to be wished. isFinished: nothing mends them later.
+void tellEnd(const History& history, bool isFinished, RemeshResult& result)
 {
-  const std::string inverted = result.status.ok() ? invertedText(result.quads) : "";
+  const std::string inverted = result.status.ok() && isFinished ? invertedText(result.quads) : "";
   const std::string those = inverted.empty() ? "" : "; " + inverted;
   if (!result.stopped.empty())
   {
@@ -185,7 +185,7 @@ void takeAttempts(const History& history, RunContext& run, const Frame& frame,
   takeAttempt(attempt, options, result);
   addGivenUp(attempt.plan, sized.surface->mesh, sized.edgeLength, result.givenUpFeatures);
   noteFailed(attempt, sized.surface->mesh, result);
-  tellEnd(history, result);
+  tellEnd(history, !sized.hasBeside, result);
   tellAttempt(attempt,
     { sized.edgeLength, frame.unit, sized.targetQuads, options.maximumNumberOfQuads }, result);
   takeStages(history, run.levels, sized, result);
