@@ -154,7 +154,8 @@ TEST(SparseCholesky, GivesTheSchurComplementOfSparseColumns)
         c(random() % kSize, j) += number(random);
       }
     }
-    SparseCholesky::Matrix lower = Eigen::MatrixXd(dense.triangularView<Eigen::Lower>()).sparseView();
+    SparseCholesky::Matrix lower =
+      Eigen::MatrixXd(dense.triangularView<Eigen::Lower>()).sparseView();
     lower.makeCompressed();
     SparseCholesky solver;
     solver.analyze(lower);

@@ -19,7 +19,8 @@ namespace
 {
 
 /// Lower triangle of a random matrix with some entries a row, made positive definite by its diagonal.
-SparseCholesky::Matrix randomMatrix(int n, int perRow, std::mt19937& random, double dominance = 1.01)
+SparseCholesky::Matrix randomMatrix(
+  int n, int perRow, std::mt19937& random, double dominance = 1.01)
 {
   std::uniform_real_distribution<double> value(-1, 1);
   std::uniform_int_distribution<int> index(0, n - 1);
