@@ -53,15 +53,6 @@ void forEachEntry(
   }
 }
 
-/// first[i] becomes the sum of all before it.
-void accumulate(std::vector<int>& first)
-{
-  for (std::size_t i = 1; i < first.size(); ++i)
-  {
-    first[i] += first[i - 1];
-  }
-}
-
 /// L of a dense matrix whose lower triangle is in the first rows, and the rows below times its inverse transposed.
 /// False when it is not positive definite.
 template <typename Panel>
@@ -150,7 +141,15 @@ void SparseCholesky::analyze(const Matrix& lower)
   place_ = Permutation(fromPlace.inverse()).indices();
   findTree(lower);
   sortTree();
-  takeEntries(lower);
+  entries_ = Grouped<Entry>(parent_.size(),
+    [&](const auto& visit)
+    {
+      forEachEntry(lower, place_,
+        [&](int column, int row, int at) {
+          visit(static_cast<std::size_t>(column), Entry{ row, at });
+        });
+    });
+  entryCount_ = lower.nonZeros();
   findSupernodes();
   findRows();
   flops_ = 0;
@@ -164,12 +163,12 @@ void SparseCholesky::analyze(const Matrix& lower)
 void SparseCholesky::findTree(const Matrix& lower)
 {
   const auto n = static_cast<std::size_t>(lower.cols());
-  std::vector<int> first(n + 1, 0), left;
-  forEachEntry(lower, place_, [&](int, int row, int) { ++first[row + 1]; });
-  accumulate(first);
-  left.resize(static_cast<std::size_t>(first[n]));
-  std::vector<int> next(first.begin(), first.end() - 1);
-  forEachEntry(lower, place_, [&](int column, int row, int) { left[next[row]++] = column; });
+  const Grouped<int> left(n,
+    [&](const auto& visit)
+    {
+      forEachEntry(lower, place_,
+        [&](int column, int row, int) { visit(static_cast<std::size_t>(row), column); });
+    });
   parent_.assign(n, -1);
   count_.assign(n, 1);
   std::vector<int> seen(n, -1);
@@ -177,9 +176,9 @@ void SparseCholesky::findTree(const Matrix& lower)
   {
     pollNowAndThen(static_cast<std::size_t>(k), kColumnsBetweenPolls);
     seen[k] = k;
-    for (int at = first[k]; at < first[k + 1]; ++at)
+    for (const int* from = left.begin(k); from != left.end(k); ++from)
     {
-      for (int i = left[at]; seen[i] != k; i = parent_[i])
+      for (int i = *from; seen[i] != k; i = parent_[i])
       {
         parent_[i] = parent_[i] < 0 ? k : parent_[i];
         ++count_[i];
@@ -231,22 +230,6 @@ void SparseCholesky::sortTree()
   }
   parent_ = std::move(parent);
   count_ = std::move(count);
-}
-
-void SparseCholesky::takeEntries(const Matrix& lower)
-{
-  begin_.assign(parent_.size() + 1, 0);
-  forEachEntry(lower, place_, [&](int column, int, int) { ++begin_[column + 1]; });
-  accumulate(begin_);
-  row_.resize(static_cast<std::size_t>(begin_.back()));
-  source_.resize(row_.size());
-  std::vector<int> next(begin_.begin(), begin_.end() - 1);
-  forEachEntry(lower, place_,
-    [&](int column, int row, int at)
-    {
-      row_[next[column]] = row;
-      source_[next[column]++] = at;
-    });
 }
 
 /// Columns with the same rows, joined with the child before them where that stores few zeros.
@@ -332,7 +315,8 @@ void SparseCholesky::findRows()
         rows_.push_back(row);
       }
     };
-    std::for_each(row_.begin() + begin_[node.begin], row_.begin() + begin_[node.end], add);
+    std::for_each(entries_.begin(node.begin), entries_.end(node.end - 1),
+      [&](const Entry& entry) { add(entry.row); });
     for (int c = child[s]; c >= 0; c = sibling[c])
     {
       for (int i = nodes_[c].width(); i < nodes_[c].height; ++i)
@@ -356,7 +340,7 @@ void SparseCholesky::findRows()
 
 bool SparseCholesky::factorize(const Matrix& lower, double shift)
 {
-  refuseIf(lower.cols() != size() || static_cast<std::size_t>(lower.nonZeros()) != source_.size(),
+  refuseIf(lower.cols() != size() || lower.nonZeros() != entryCount_,
     "L L^T: the matrix has not the pattern that was analyzed");
   std::fill(values_.begin(), values_.end(), 0.0);
   std::vector<int> localRow(parent_.size());
@@ -376,9 +360,9 @@ bool SparseCholesky::factorize(const Matrix& lower, double shift)
     {
       double* const column = own.col(k - node.begin).data();
       column[k - node.begin] += shift;
-      for (int at = begin_[k]; at < begin_[k + 1]; ++at)
+      for (const Entry* entry = entries_.begin(k); entry != entries_.end(k); ++entry)
       {
-        column[localRow[row_[at]]] += lower.valuePtr()[source_[at]];
+        column[localRow[entry->row]] += lower.valuePtr()[entry->source];
       }
     }
     const auto passOn = [&](int from)

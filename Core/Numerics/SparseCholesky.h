@@ -5,6 +5,8 @@
 /// Documentation/Design/Libraries.md compares it with CHOLMOD.
 #pragma once
 
+#include "Base/Lists.h"
+
 #include <Eigen/SparseCore>
 
 #include <cstddef>
@@ -45,13 +47,17 @@ private:
 
     int width() const { return end - begin; }
   };
+  struct Entry
+  {
+    int row = 0;
+    int source = 0; ///< place of the value in `lower`
+  };
   using Panel = Eigen::Map<Eigen::MatrixXd>;
   using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
 
   int size() const { return static_cast<int>(parent_.size()); }
   void findTree(const Matrix& lower);
   void sortTree();
-  void takeEntries(const Matrix& lower);
   void findSupernodes();
   void findRows();
   const int* rowsOf(const Supernode& node) const { return rows_.data() + node.firstRow; }
@@ -67,10 +73,8 @@ private:
   Eigen::VectorXi place_;   ///< in the elimination, of each unknown
   std::vector<int> parent_; ///< elimination tree, children before their parents; -1 at roots
   std::vector<int> count_;  ///< rows of each column of L, with the diagonal
-  // The reordered lower triangle by columns.
-  std::vector<int> begin_; ///< n + 1
-  std::vector<int> row_;
-  std::vector<int> source_; ///< place of the value in `lower`
+  Grouped<Entry> entries_;  ///< of the reordered lower triangle, by columns
+  Eigen::Index entryCount_ = 0;
   std::vector<Supernode> nodes_;
   std::vector<int> nodeOf_; ///< of each column
   std::vector<int> rows_;   ///< of all supernodes; ascending in each

@@ -29,6 +29,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -480,6 +481,27 @@ vtkSmartPointer<vtkPolyData> moebius(vtkIdType around)
   return band;
 }
 
+/// Where the first cell of the output Problems begins.
+const double* firstProblem(vtkQuadRemesh* filter)
+{
+  auto* problems = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(8));
+  return problems->GetPoint(problems->GetCell(0)->GetPointId(0));
+}
+
+/// The mean of its corners.
+std::array<double, 3> middleOfCell(vtkPolyData* input, vtkIdType cell)
+{
+  std::array<double, 3> middle{};
+  const vtkIdType corners = input->GetCell(cell)->GetNumberOfPoints();
+  for (vtkIdType corner = 0; corner < corners; ++corner)
+  {
+    vtkMath::Add(
+      middle.data(), input->GetPoint(input->GetCell(cell)->GetPointId(corner)), middle.data());
+  }
+  vtkMath::MultiplyScalar(middle.data(), 1.0 / static_cast<double>(corners));
+  return middle;
+}
+
 TEST(QuadRemeshFailure, MarksThePolygonWhereABandIsTwisted)
 {
   const vtkSmartPointer<vtkPolyData> input = moebius(12);
@@ -489,18 +511,12 @@ TEST(QuadRemeshFailure, MarksThePolygonWhereABandIsTwisted)
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
   EXPECT_EQ(countProblems(filter)[0], input->GetNumberOfCells());
   ASSERT_EQ(countProblems(filter)[1], 1);
-  auto* problems = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(8));
-  const double* mark = problems->GetPoint(problems->GetCell(0)->GetPointId(0));
+  const double* mark = firstProblem(filter);
   double least = 1;
   for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
   {
-    double middle[3] = { 0, 0, 0 };
-    for (int corner = 0; corner < 4; ++corner)
-    {
-      vtkMath::Add(middle, input->GetPoint(input->GetCell(cell)->GetPointId(corner)), middle);
-    }
-    vtkMath::MultiplyScalar(middle, 0.25);
-    least = std::min(least, vtkMath::Distance2BetweenPoints(mark, middle));
+    least =
+      std::min(least, vtkMath::Distance2BetweenPoints(mark, middleOfCell(input, cell).data()));
   }
   EXPECT_NEAR(least, 0, 1e-20); // rounding of sums of four
 }
@@ -536,23 +552,14 @@ TEST(QuadRemeshFailure, MarksWhereAnArrayHasAValueThatCannotBe)
     EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
     EXPECT_EQ(countProblems(filter)[0], input->GetNumberOfCells());
     ASSERT_EQ(countProblems(filter)[1], 1);
-    auto* problems = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(8));
-    const double* mark = problems->GetPoint(problems->GetCell(0)->GetPointId(0));
-    double place[3] = { 0, 0, 0 };
-    if (isOfCell)
+    const double* mark = firstProblem(filter);
+    std::array<double, 3> place = middleOfCell(input, kWrong);
+    if (!isOfCell)
     {
-      for (int corner = 0; corner < 3; ++corner)
-      {
-        vtkMath::Add(place, input->GetPoint(input->GetCell(kWrong)->GetPointId(corner)), place);
-      }
-      vtkMath::MultiplyScalar(place, 1.0 / 3);
-    }
-    else
-    {
-      input->GetPoint(kWrong, place);
+      input->GetPoint(kWrong, place.data());
     }
     EXPECT_NEAR(
-      vtkMath::Distance2BetweenPoints(mark, place), 0, 1e-20); // rounding of sums of three
+      vtkMath::Distance2BetweenPoints(mark, place.data()), 0, 1e-20); // rounding of sums of three
   }
 }
 

@@ -92,7 +92,7 @@ struct FadingEdge
   Mesh mesh;
   QuadMesh quads;
 
-  FadingEdge(std::uint8_t flags, Index endX, std::array<Index, 2> next)
+  FadingEdge(Index endX, std::array<Index, 2> next)
   {
     const auto at = [](Index x, Index y) { return y * (kSide + 1) + x; };
     std::vector<Vector3> points;
@@ -115,7 +115,7 @@ struct FadingEdge
       const Vector3 middle = (mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2;
       if (middle.y() == 8 && mesh.edgeVector(h).y() == 0 && middle.x() < endX)
       {
-        mesh.flags.edit()[h] = flags;
+        mesh.flags.edit()[h] = kFeatureEdge;
       }
     }
     std::vector<Index> vertices;
@@ -153,7 +153,7 @@ struct FadingEdge
 /// nowhere, two and two at one place.
 FadingEdge touchingEdges()
 {
-  FadingEdge touching(kFeatureEdge, 8, { 16, 8 });
+  FadingEdge touching(8, { 16, 8 });
   QuadMesh& quads = touching.quads;
   for (const Index p : { 5u, 6u })
   {
@@ -274,7 +274,7 @@ TEST(QuadUntangling, WhatCannotBeMendedStaysAsItWas)
 
 TEST(QuadUntangling, MendsQuadsThatAreNearlyInverted)
 {
-  FadingEdge edge(kFeatureEdge, 11, { 13, 5 });
+  FadingEdge edge(11, { 13, 5 });
   ASSERT_EQ(invertedCount(edge.quads), 0u);
   ASSERT_EQ(badQuads(edge.quads.points, edge.quads.quads).size(), 1u);
   untangleQuads(edge.mesh, edge.quads, {});
@@ -312,7 +312,7 @@ TEST(QuadUntangling, HeldPointsLeaveNothing)
   loosenQuads(touching.mesh, touching.quads, { all, 1 });
   expectSamePlaces(touching.quads, before);
 
-  FadingEdge edge(kFeatureEdge, 8, { 16, 8 }); // without bad quads
+  FadingEdge edge(8, { 16, 8 }); // without bad quads
   const QuadMesh good = edge.quads;
   ASSERT_TRUE(badQuads(good.points, good.quads).empty());
   loosenQuads(edge.mesh, edge.quads, {});
