@@ -17,7 +17,6 @@ enum class Try : std::uint8_t
 {
   MoreFreedom,
   RoomForCurves,
-  KeptDefects,
   MoreQuads,
   Counterparts,
   FewerFeatures,
@@ -50,7 +49,6 @@ enum class Try : std::uint8_t
   ValencesForSizes,
   WiderPatch,
   TurnedReferences,
-  MoreWeightTurned,
   ShapesAgain,
   MoreCorners,
   OtherEdges,

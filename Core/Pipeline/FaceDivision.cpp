@@ -494,20 +494,6 @@ bool isCutAtFaces(
     !contradictsItself(*history.last().map) && mayCutFaces(surface, options);
 }
 
-double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed)
-{
-  const std::vector<Index> labels = faceLabels(surface.mesh);
-  const std::vector<std::uint8_t> isFailed = failedLabels(surface.mesh, labels, failed);
-  double all = 0, out = 0;
-  for (Index f = 0; f < surface.mesh.faceCount(); ++f)
-  {
-    const double area = sizedArea(surface.mesh, f);
-    all += area;
-    out += isFailed[labels[f]] != 0 ? area : 0;
-  }
-  return out / all;
-}
-
 FailedFaces facesAt(const std::vector<Vector3>& places, const Mesh& mesh)
 {
   FailedFaces faces;
@@ -589,7 +575,7 @@ std::string filledText(const CutFaces& cut, std::size_t quads)
   std::ostringstream text;
   text << "ask for more than " << quads << " quads: " << cut.count
        << (cut.count == 1 ? " face" : " faces") << " between sharp edges, with "
-       << std::setprecision(2) << 100 * cut.share << " % of the area, near "
+       << std::setprecision(3) << 100 * cut.share << " % of the area, near "
        << placeText(cut.faces.mesh.middleOfFace(0)) << (cut.count == 1 ? ", has" : ", have")
        << " no map with quads of this size; the edges are kept, and inside there are quads that "
           "follow no direction";

@@ -39,8 +39,6 @@ bool keepsFeatures(const PreparedSurface& surface);
 /// Whether attempts on such a surface have no quads yet, and not as what was asked for contradicts itself.
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history);
-/// The area of the faces in which a map has failed over that of the surface.
-double shareOfFailed(const PreparedSurface& surface, const FailedFaces& failed);
 /// The faces that the places lie in, as SurfaceRequests::withoutMap.
 FailedFaces facesAt(const std::vector<Vector3>& places, const Mesh& mesh);
 /// #F: whether a triangle belongs to one of the faces.

@@ -128,7 +128,6 @@ Plan firstPlan(RunContext& run)
 {
   Plan plan;
   plan.levels = firstLevels(run);
-  plan.nextLevels = plan.levels;
   plan.quads = static_cast<double>(run.targetQuads);
   const std::vector<HandleLoop>& loops = run.shortLoops.loops;
   if (loops.empty() || !mayResolve(run.options))

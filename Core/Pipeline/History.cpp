@@ -16,12 +16,11 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
   }
   if (roundIsOver_)
   {
-    round_.clear();
+    beforeRound_ = steps_.size();
     best_ = {};
     roundIsOver_ = false;
   }
   steps_.emplace_back(plan.step);
-  round_.push_back({ plan.step, map->failedAt.size() });
   workOfLast_ = map->work + map->workOfCarrying + bound_.ofAttempt;
   work_ += workOfLast_;
   take(*map);
@@ -106,20 +105,8 @@ std::size_t History::allowance() const
 
 std::size_t History::inRound(const std::string& step) const
 {
-  return static_cast<std::size_t>(std::count_if(
-    round_.begin(), round_.end(), [&](const Summary& summary) { return summary.step == step; }));
-}
-
-std::size_t History::trailing(const std::string& step) const
-{
-  const auto other = std::find_if(
-    round_.rbegin(), round_.rend(), [&](const Summary& summary) { return summary.step != step; });
-  return static_cast<std::size_t>(other - round_.rbegin());
-}
-
-std::size_t History::failedBefore() const
-{
-  return round_.size() < 2 ? 0 : round_[round_.size() - 2].failed;
+  const auto first = steps_.begin() + static_cast<std::ptrdiff_t>(beforeRound_);
+  return static_cast<std::size_t>(std::count(first, steps_.end(), step));
 }
 
 TryCounts History::tries() const

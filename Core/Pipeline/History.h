@@ -38,11 +38,8 @@ public:
   const Attempt& ofRound() const { return best_.map ? best_ : last_; }
   bool roundHasMap() const { return best_.map != nullptr; }
   bool lastIsBest() const { return best_.map != nullptr && best_.map == last_.map; }
-  /// How many attempts of the round were made by this step; at its end, one after the other.
+  /// How many attempts of the round were made by this step.
   std::size_t inRound(const std::string& step) const;
-  std::size_t trailing(const std::string& step) const;
-  /// At how many vertices the coarse map failed in the attempt before the last one of the round; 0 where there is none.
-  std::size_t failedBefore() const;
 
   /// The attempt that has quads, of several the one with the fewest that are inverted: a later one counts only where
   /// it has at most half as many, as what it changed has a price. Without any, that of the last round.
@@ -82,17 +79,11 @@ private:
   bool hasSomething() const { return result_.quads != nullptr || roundHasMap(); }
   void take(const AttemptLog& log);
 
-  struct Summary
-  {
-    std::string step;
-    std::size_t failed = 0; ///< vertices that the coarse map failed at
-  };
-
   Attempt last_, best_; ///< of the round
   Attempt result_;
   FailedFaces failedFaces_;
   bool roundIsOver_ = true;
-  std::vector<Summary> round_;
+  std::size_t beforeRound_ = 0; ///< attempts before this round
   std::vector<std::string> steps_;
   AttemptLog all_; ///< without notices; tries: taken
 

@@ -444,7 +444,7 @@ std::string FailedParts::countText() const
 {
   std::ostringstream text;
   text << components << " of " << ofComponents << " connected components, with "
-       << std::setprecision(2) << 100 * share << " % of the area";
+       << std::setprecision(3) << 100 * share << " % of the area";
   return text.str();
 }
 

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Pipeline/FaceDivision.h"
 #include "Pipeline/Strategies.h"
-#include "Requests/Guides.h"
 
 #include "Base/Lists.h"
 #include "Mesh/Mesh.h"
@@ -15,13 +13,8 @@ namespace quadrille
 namespace
 {
 
-/// Where a map failed at so many vertices, it must have halved the number of the one before to deserve another.
-constexpr std::size_t kManyFailed = 100;
-/// A failure at no place in particular is worth another try with more vertices only where it took less than this part
-/// of the bound of work: integers that are searched for long and not found are a matter of features.
-constexpr double kCheapFailure = 0.25;
-/// Of the surface: faces with less area are cut out before more vertices are tried, of which a map of all takes longer.
-constexpr double kLittleArea = 0.02;
+/// A map that fails at more vertices has a cause that more freedom does not take away.
+constexpr std::size_t kFewFailed = 10;
 /// Rings of intermediate vertices that are kept round a vertex that the map failed at.
 constexpr int kFreedomRings = 2;
 
@@ -74,25 +67,10 @@ std::vector<Index> ringsRound(
 
 std::optional<Plan> moreFreedom(const AttemptFailure& failure)
 {
-  const History& history = failure.history;
-  const Attempt& last = history.last();
-  const std::size_t failed = last.map->failedAt.size();
-  const std::size_t times = history.trailing("more freedom");
-  if (last.map->status.ok() || last.map->hopeless || times == failure.bound ||
-    (times > 0 && failed >= kManyFailed && 2 * failed > history.failedBefore()))
-  {
-    return std::nullopt;
-  }
-  if (keepsFeatures(*failure.surface) &&
-    isCutAtFaces(*failure.run.surface.surface, failure.run.options, history) &&
-    (times > 0 ||
-      (!history.failedFaces().empty() &&
-        shareOfFailed(*failure.run.surface.surface, history.failedFaces()) <= kLittleArea)))
-  {
-    return std::nullopt;
-  }
-  if (failed == 0 &&
-    static_cast<double>(last.map->work) > kCheapFailure * static_cast<double>(history.bound().work))
+  const Attempt& last = failure.history.last();
+  const std::vector<Index>& failedAt = last.map->failedAt;
+  if (last.map->status.ok() || last.map->hopeless || failedAt.size() > kFewFailed ||
+    failure.history.inRound("more freedom") == failure.bound)
   {
     return std::nullopt;
   }
@@ -104,47 +82,13 @@ std::optional<Plan> moreFreedom(const AttemptFailure& failure)
   {
     plan.levels.edgeLength /= std::sqrt(2.0);
     plan.levels.coarseVertices = 2 * coarse;
-    plan.nextLevels = plan.levels;
     return plan;
   }
   const std::size_t before = plan.levels.keptVertices.size();
-  keepAlso(
-    ringsRound(levels.intermediate, last.map->failedAt, failure.surface->mesh.vertexCount()), plan);
+  keepAlso(ringsRound(levels.intermediate, failedAt, failure.surface->mesh.vertexCount()), plan);
   const std::size_t added = plan.levels.keptVertices.size() - before;
   plan.levels.coarseVertices =
     static_cast<Index>(std::max<std::size_t>(coarse + added, std::size_t{ coarse } * 5 / 4));
-  if (failed < kManyFailed)
-  {
-    // More have a cause that another round may take away, and the vertices would stand in the way of its map.
-    plan.nextLevels = plan.levels;
-  }
-  return plan;
-}
-
-std::optional<Plan> keptDefects(const AttemptFailure& failure)
-{
-  const History& history = failure.history;
-  const std::size_t times = history.inRound("kept defects");
-  if (!history.lastIsBest() || times == failure.bound)
-  {
-    return std::nullopt;
-  }
-  const MapAttempt& map = *history.last().map;
-  const std::vector<Index>& atDefects = map.transfer.defectVertices;
-  const Index coarse = map.coarse.mesh.vertexCount();
-  // With defects everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
-  if (hasPromised(map.certificate, failure.run.options.method) || atDefects.empty() ||
-    atDefects.size() > coarse / 2)
-  {
-    return std::nullopt;
-  }
-  Plan plan = history.last().plan;
-  keepAlso(atDefects, plan);
-  if (plan.levels.coarseVertices == 0)
-  {
-    plan.levels.coarseVertices = coarse; // not fewer elsewhere because of these
-  }
-  plan.levels.coarseVertices += static_cast<Index>(atDefects.size());
   return plan;
 }
 

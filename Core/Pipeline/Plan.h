@@ -41,10 +41,8 @@ struct Plan
   std::vector<Try> made; ///< all that has made it of the first one and still shows, in order
   std::string why;       ///< what was wrong with the attempt before, for the progress text
 
-  LevelPlan levels;
-  /// Of the next round: without what was kept for the sake of the map on the surface, but with all that the coarse map
-  /// could not do without, so that another round need not find that out again.
-  LevelPlan nextLevels;
+  LevelPlan
+    levels; ///< of the next round, too, which need not find out again what the coarse map needs
 
   // Of the surface, see withPlan.
   std::shared_ptr<const std::vector<float>> sizes;           ///< #V; null: those of the surface

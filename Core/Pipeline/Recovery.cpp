@@ -20,10 +20,9 @@ struct Strategy
 };
 
 /// The strategies in the order in which they are asked.
-constexpr std::array<Strategy, 3> kForMaps{ {
-  { Try::MoreFreedom, 2, moreFreedom },
+constexpr std::array<Strategy, 2> kForMaps{ {
+  { Try::MoreFreedom, 1, moreFreedom },
   { Try::RoomForCurves, 1, roomForCurves },
-  { Try::KeptDefects, 2, keptDefects },
 } };
 constexpr std::array<Strategy, 2> kForRounds{ {
   { Try::Counterparts, 1, withCounterparts },

@@ -41,13 +41,6 @@ void forget(std::initializer_list<Try> steps, Plan& plan)
     made.end());
 }
 
-Plan newRound(Plan plan)
-{
-  plan.levels = plan.nextLevels;
-  forget({ Try::KeptDefects, Try::RoomForCurves }, plan);
-  return plan;
-}
-
 std::string nearText(const std::vector<Vector3>& places)
 {
   return " near " + placeText(places.front()) + (places.size() > 1 ? " and other places" : "");
@@ -56,10 +49,9 @@ std::string nearText(const std::vector<Vector3>& places)
 /// With the first levels and number of quads.
 Plan fromTheBeginning(const RunContext& run, Plan plan)
 {
-  forget({ Try::MoreFreedom, Try::KeptDefects, Try::RoomForCurves, Try::MoreQuads }, plan);
+  forget({ Try::MoreFreedom, Try::RoomForCurves, Try::MoreQuads }, plan);
   plan.quads = static_cast<double>(run.targetQuads);
   plan.levels = firstLevels(run);
-  plan.nextLevels = plan.levels;
   return plan;
 }
 
@@ -168,7 +160,7 @@ std::optional<Plan> withCounterparts(const AttemptFailure& failure)
 {
   const PreparedSurface& surface = *failure.surface;
   const double edgeLength = failure.run.edgeLength;
-  Plan plan = newRound(failure.attempt.plan);
+  Plan plan = failure.attempt.plan;
   if (plan.counterparts || surface.regularElsewhere || isTooLarge(failure.attempt))
   {
     return std::nullopt;
@@ -205,7 +197,6 @@ std::optional<Plan> withCounterparts(const AttemptFailure& failure)
     plan.levels.keptVertices.push_back(vertex);
   }
   sortUnique(plan.levels.keptVertices);
-  plan.nextLevels = plan.levels;
   plan.notices.push_back(
     "a single irregular vertex does not fit between the features round it, so " +
     std::to_string(more.size()) + " others were put beside what was asked for" + nearText(places) +
@@ -220,7 +211,7 @@ std::optional<Plan> fewerFeatures(const AttemptFailure& failure)
   {
     return std::nullopt;
   }
-  Plan plan = newRound(failure.attempt.plan);
+  Plan plan = failure.attempt.plan;
   std::vector<FeatureDrop> drops = dropsAt(failure, failure.places);
   std::vector<Index> features = featuresNear(failure, drops);
   const double farthest = failure.surface->boundingBoxDiagonal;

@@ -31,20 +31,15 @@ struct AttemptFailure
 
 // For another map of the same round.
 
-/// Where the coarse map fails: keeps the intermediate vertices near those that it failed at, and raises the budget by
-/// their number and a half. Where the coarse level has all of the intermediate one already, both get about twice as
-/// many. Not where faces of little area can be cut out instead. Bound: times one after the other.
+/// Where the coarse map fails at a few vertices: keeps the intermediate vertices near them, and raises the budget by
+/// their number, at least by a quarter. Where the coarse level has all of the intermediate one already, both get about
+/// twice as many. Bound: times in a round.
 std::optional<Plan> moreFreedom(const AttemptFailure& failure);
 
 /// Where a map was made by leaving curves out, vertices round the places where it could not be made with them are kept
 /// on the coarse level.
 /// Bound: times in a round.
 std::optional<Plan> roomForCurves(const AttemptFailure& failure);
-
-/// Where the surface's triangles have no room for the map, their vertices are kept on all levels, so that the coarse
-/// map shows what there is.
-/// Bound: times in a round.
-std::optional<Plan> keptDefects(const AttemptFailure& failure);
 
 // For another round.
 

@@ -141,27 +141,6 @@ std::size_t MendedPatch::countDefects() const
   return count;
 }
 
-std::vector<Index> MendedPatch::defectVertices() const
-{
-  std::vector<Index> found;
-  for (const Index f : faces_)
-  {
-    if (!defects_.isPositive(f))
-    {
-      found.insert(found.end(), &mesh_.origin[3 * f], &mesh_.origin[3 * f] + 3);
-    }
-  }
-  for (const PatchVertex& vertex : vertices_)
-  {
-    const Index corner = fans_[vertex.firstFan].corner;
-    if (vertex.fanCount > 1 && defects_.turnsRound(corner) != expectedTurns_[mesh_.origin[corner]])
-    {
-      found.push_back(mesh_.origin[corner]);
-    }
-  }
-  return found;
-}
-
 std::vector<FixedVec2> MendedPatch::corners() const
 {
   std::vector<FixedVec2> corners;

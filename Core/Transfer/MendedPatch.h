@@ -70,8 +70,6 @@ public:
   /// Triangles that are not positive, and vertices of wrong turns, of the patch as collectFans left it; those with
   /// positive triangles only count more: nothing shows the untangler, or the extraction, where the turn was lost.
   std::size_t countDefects() const;
-  /// Those of triangles that are not positive, and those of wrong turns.
-  std::vector<Index> defectVertices() const;
 
   /// uv of the corners of the patch, face after face.
   std::vector<FixedVec2> corners() const;

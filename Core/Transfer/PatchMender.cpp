@@ -34,8 +34,6 @@ constexpr std::size_t kWorkOnMany = 1000000;
 constexpr std::size_t kManySeeds = 4000;
 constexpr std::size_t kLeastSteps = 30;
 constexpr std::size_t kMostUntanglingSteps = 250;
-/// How often those at defects get more weight.
-constexpr int kTurnedRounds = 4;
 
 /// What the untangler minimizes, and when what comes of it is taken.
 enum class Energy
@@ -83,7 +81,6 @@ private:
   MendedPatch patch_;
   std::vector<std::uint8_t> tried_; ///< faces that were in a cluster of this growth, or touched one
   std::vector<Index> changed_;      ///< faces of the patches that were improved in this growth
-  std::vector<Index> left_;         ///< vertices at the defects that the last try had in the end
   std::size_t work_ = 0;            ///< faces times steps of all tries
 };
 
@@ -196,15 +193,9 @@ bool PatchMender::embedTurned()
     problem.weight[i] *= nearness[i];
   }
   problems().guardCurves(rotations, nearness, problem);
-  bool improved = false;
-  for (int round = 0; round < kTurnedRounds && patch_.countDefects() > 0; ++round)
-  {
-    const Try which = round == 0 ? Try::TurnedReferences : Try::MoreWeightTurned;
-    countTry(which);
-    improved =
-      hasLed(which, embedFrom(problem, fitReferences(problem), Energy::Turned)) || improved;
-    problems().stiffen(left_, problem);
-  }
+  countTry(Try::TurnedReferences);
+  const bool improved =
+    hasLed(Try::TurnedReferences, embedFrom(problem, fitReferences(problem), Energy::Turned));
   if (improved && patch_.countDefects() == 0)
   {
     // From a valid map no vertex changes its winding.
@@ -239,7 +230,6 @@ bool PatchMender::embedFrom(
   work_ += patch_.faces().size() * static_cast<std::size_t>(result.steps);
   patch_.applyDisplacements(result.y);
   const std::size_t after = patch_.countDefects();
-  left_ = patch_.defectVertices();
   if (result.y.allFinite() && (energy == Energy::Polish ? after == 0 : after < before))
   {
     return true;

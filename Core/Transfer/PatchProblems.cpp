@@ -23,8 +23,6 @@ namespace
 
 /// What weighs most is no nearer than this, squared and over the largest distance of the patch.
 constexpr double kNearest = 1e-4;
-/// How much more weight those at defects get each time.
-constexpr double kStiffening = 10;
 /// References flatter than this (2 area / longest edge squared) are replaced by equilateral ones.
 constexpr double kFlattestTriangle = 0.1;
 
@@ -206,27 +204,6 @@ void PatchProblems::guardCurves(const std::vector<double>& rotations,
   for (std::size_t i = 0; i < edges.size(); ++i)
   {
     problem.weight[before + i] *= factors[i];
-  }
-}
-
-void PatchProblems::stiffen(const std::vector<Index>& vertices, UntangleProblem& problem) const
-{
-  std::vector<Index> near = vertices;
-  for (int ring = 0; ring < 2; ++ring)
-  {
-    std::sort(near.begin(), near.end());
-    std::vector<Index> touched;
-    for (std::size_t i = 0; i < patch_.faces().size(); ++i)
-    {
-      const Index* v = &mesh_.origin[3 * patch_.faces()[i]];
-      if (std::any_of(
-            v, v + 3, [&](Index w) { return std::binary_search(near.begin(), near.end(), w); }))
-      {
-        touched.insert(touched.end(), v, v + 3);
-        problem.weight[i] *= ring == 1 ? kStiffening : 1;
-      }
-    }
-    near = std::move(touched);
   }
 }
 

@@ -30,8 +30,6 @@ public:
   /// Edges of curves between vertices that may slide past each other otherwise.
   void guardCurves(const std::vector<double>& rotations, const std::vector<double>& nearness,
     UntangleProblem& problem) const;
-  /// Faces that touch one of these vertices, or touch one that does, weigh more.
-  void stiffen(const std::vector<Index>& vertices, UntangleProblem& problem) const;
 
 private:
   /// Of the map over the surface.
