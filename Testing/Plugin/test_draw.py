@@ -520,27 +520,33 @@ def check_save(session, chance):
 
 
 def check_delete(session, chance):
-    """A Quad Remesh that is deleted while its quads are made is gone, and one undo brings it back."""
+    """A Quad Remesh stays selected when a constraint is drawn. Deleted while its quads are made it is gone, its surface
+    is shown, and one undo brings it back."""
     make_busy(session)
     session.take("Valence")
     place = session.screen(session.places(chance, 2)[1][0])  # not that of the check before, which is remembered
-    session.ask("simple.SetActiveSource(quads().Input)")
+    session.ask("simple.SetActiveSource(quads())")
     session.xdotool("mousemove", *place, "sleep", 0.2, "click", 1)
     session.wait_until("not is_made()")
-    session.ask("simple.SetActiveSource(quads())")  # its row has the colour of what is selected then
     rows = session.rows()
-    x, y = next((x, y) for y in range(200, 420) for x in range(30, 280, 4) if rows[y][3 * x:3 * x + 3] == SELECTED)
+    x, y = next(((x, y) for y in range(200, 420) for x in range(30, 280, 4) if rows[y][3 * x:3 * x + 3] == SELECTED),
+                (None, None))
+    if x is None:
+        session.shot("draw-not-selected")
+        print("no row of the pipeline is selected after a constraint was drawn")
+        return True
     session.xdotool("mousemove", x + 20, y + 8, "click", 1, "sleep", 0.1)  # the upper one, below which is the output
     underway = not session.value("is_made()")
     session.xdotool("key", "Delete", "sleep", 1)
     gone = session.value("quads() is None")
+    shown = session.value("[r.Visibility for r in view.Representations if hasattr(r, 'Visibility')]").count(1)
     session.shot("draw-deleted")
     session.xdotool("mousemove", *session.middle(), "key", "ctrl+z", "sleep", 1)
     session.settle()
     back = session.value("quads() is not None and output(0).GetNumberOfCells() > 0")
     session.xdotool("key", "Escape")
-    print(f"deleted while quads are made {underway}: gone {gone}, back by undo {back}")
-    return not (underway and gone and back)
+    print(f"deleted while quads are made {underway}: gone {gone}, its surface shown {shown}, back by undo {back}")
+    return not (underway and gone and shown == 1 and back)
 
 
 def check_close(session):
