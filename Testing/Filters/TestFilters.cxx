@@ -678,7 +678,7 @@ TEST(QuadRemeshFailure, BadPropertiesAreRefused)
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::gridPlane(4, 4));
   vtkNew<vtkQuadRemesh> filter;
   const test::Messages messages(filter);
-  run(filter, input, 0);
+  run(filter, input, -1);
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
   filter->SetTargetTypeToEdgeLength();
   filter->SetEdgeLength(-1);

@@ -74,6 +74,19 @@ class Session(test_places.Session):
         self.xdotool(*words, "sleep", 0.05, "mouseup", 1)
         self.settle()
 
+    def set_number(self, number):
+        """By the field of the panel, and Apply; 0: the field is emptied."""
+        self.ask("simple.SetActiveSource(quads())")
+        old = self.value("quads().NumberOfQuads")
+        x, y = self.find_by_change(f"set_quietly('NumberOfQuads', {old})", "set_quietly('NumberOfQuads', 8888)")
+        keys = ("type", str(number)) if number else ("key", "BackSpace")
+        self.xdotool("mousemove", x, y, "click", "--repeat", 3, "--delay", 80, 1, "sleep", 0.3, *keys)
+        self.xdotool("sleep", 0.3)
+        self.apply()
+        self.settle()
+        if self.value("quads().NumberOfQuads") != number:
+            raise SystemExit("FAILED: the typed number of quads did not come in")
+
     def press(self, pixel):
         """A click."""
         self.xdotool("mousemove", *self.screen(pixel), "sleep", 0.1, "click", 1)
@@ -466,6 +479,20 @@ def check_ball(session, chance):
     return not fine
 
 
+def check_number(session):
+    """A number that is typed counts; the shape says how many where the field is empty."""
+    before = session.value("quads().NumberOfQuads")
+    counts = []
+    for number in (700, 0):
+        session.set_number(number)
+        counts.append(session.value("output(0).GetNumberOfCells()"))
+    session.shot("draw-number")
+    session.ask(f"set_quietly('NumberOfQuads', {before}); simple.Render(view)")
+    session.settle()
+    print(f"with 700 typed {counts[0]} quads, with an empty field {counts[1]}")
+    return not (abs(counts[0] - 700) < 100 and counts[1] > 4500)
+
+
 def make_busy(session):
     """No constraints, and so many quads that those of an edit are not there at once."""
     session.ask(f"clear(); quads().NumberOfQuads = {BUSY}; simple.Render(view)", seconds=120)
@@ -582,8 +609,9 @@ CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _
           "picks": lambda s, c, n: test_places.check_picks(s, c, 3 * n),
           "strokes": lambda s, c, n: test_places.check_strokes(s, c, 2 * n),
           "selection": lambda s, c, _: test_places.check_selection(s, c),
-          "stop": lambda s, c, _: check_stop(s, c), "save": lambda s, c, _: check_save(s, c),
-          "delete": lambda s, c, _: check_delete(s, c), "close": lambda s, c, _: check_close(s)}
+          "number": lambda s, c, _: check_number(s), "stop": lambda s, c, _: check_stop(s, c),
+          "save": lambda s, c, _: check_save(s, c), "delete": lambda s, c, _: check_delete(s, c),
+          "close": lambda s, c, _: check_close(s)}
 
 
 def main():
