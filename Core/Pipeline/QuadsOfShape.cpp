@@ -43,6 +43,11 @@ std::vector<Index> facesOfPlaces(const Mesh& mesh, std::size_t places)
   return faces;
 }
 
+std::size_t timesAsMany(std::size_t quads, double growth)
+{
+  return static_cast<std::size_t>(std::lround(growth * static_cast<double>(quads)));
+}
+
 std::string percent(double share)
 {
   return std::to_string(std::lround(100 * share)) + " %";
@@ -58,18 +63,13 @@ void askForQuadsOfShape(RemeshOptions& options)
 
 bool growsQuads(const RemeshOptions& options)
 {
-  return options.growsWithShape && options.quads && !options.sizes.any();
+  return options.growsWithShape && options.quads && !options.sizes.any() &&
+    options.maximumNumberOfQuads / 2 >= timesAsMany(*options.quads, kGrowthOfQuads.back());
 }
 
 std::optional<std::size_t> mostQuads(const RemeshOptions& options)
 {
-  if (!growsQuads(options))
-  {
-    return options.quads;
-  }
-  const double most = kGrowthOfQuads.back() * static_cast<double>(*options.quads);
-  return std::max(*options.quads,
-    std::min(static_cast<std::size_t>(std::lround(most)), options.maximumNumberOfQuads));
+  return growsQuads(options) ? timesAsMany(*options.quads, kGrowthOfQuads.back()) : options.quads;
 }
 
 std::optional<std::size_t> quadsAsked(const RemeshOptions& options, std::size_t target)
@@ -107,16 +107,14 @@ QuadsOfShape quadsOfShape(
   const PreparedSurface& surface, double sizedArea, const RemeshOptions& options)
 {
   const std::size_t least = *options.quads;
-  const std::size_t most = *mostQuads(options);
   QuadsOfShape found;
   for (const double growth : kGrowthOfQuads)
   {
-    found.quads =
-      std::min(static_cast<std::size_t>(std::lround(growth * static_cast<double>(least))), most);
+    found.quads = timesAsMany(least, growth);
     const double edgeLength = std::sqrt(sizedArea / static_cast<double>(found.quads));
     found.melted = shareThatTurns(surface.mesh, edgeLength, kMostTurn, options.threads);
     found.meltedBefore = found.quads == least ? found.melted : found.meltedBefore;
-    if (found.melted <= kMostMelted || found.quads == most)
+    if (found.melted <= kMostMelted)
     {
       break;
     }
@@ -133,7 +131,7 @@ std::string settleQuads(const PreparedSurface& surface, double sizedArea, Result
   }
   const std::size_t least = *options.quads;
   const auto found = findOrMake<QuadsOfShape>(
-    store, KeyMaker(key).add(least, *mostQuads(options), kMostTurn).key(),
+    store, KeyMaker(key).add(least, kMostTurn).key(),
     [&] { return quadsOfShape(surface, sizedArea, options); },
     [](const QuadsOfShape&) { return sizeof(QuadsOfShape); });
   options.quads = found->quads;

@@ -28,7 +28,8 @@ constexpr double kMostMelted = 0.05;
 /// Asks for as many quads as the shape needs. No size was asked for before.
 void askForQuadsOfShape(RemeshOptions& options);
 
-/// Whether the number may grow: it does not where sizes follow the shape already.
+/// Whether the number may grow. It does not where sizes follow the shape already, nor where the most quads that may be
+/// made are less than twice the last step: quads come in larger numbers than are asked for.
 bool growsQuads(const RemeshOptions& options);
 /// The most that it may be; none where an edge length is asked for.
 std::optional<std::size_t> mostQuads(const RemeshOptions& options);

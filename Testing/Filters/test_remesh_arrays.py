@@ -318,7 +318,7 @@ class Mesh(unittest.TestCase):
 
     def test_the_default_grows_where_shapes_would_melt(self):
         ring = thin_ring()
-        for number in ({}, {"quads": "automatic"}):
+        for number in ({}, {"quads": "automatic"}, {"symmetry": "found"}):
             told = quadrille.info(quadrille.remesh(ring, threads=1, **number))
             self.assertEqual(told["TargetQuads"], 7000)
             self.assertTrue(any("7000 quads are asked for, as nobody" in notice for notice in told["Notices"]))

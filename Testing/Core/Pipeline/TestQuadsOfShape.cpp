@@ -100,10 +100,12 @@ TEST(QuadsOfShape, NumberThatIsGivenStays)
   const SizedSurface given = sizedFor(torusFor(12500), options);
   EXPECT_EQ(given.targetQuads, kLeastQuadsOfShape);
   EXPECT_FALSE(tellsOfShape(given.notices));
-  // What limits quads goes before, and sizes that follow the shape need no more.
+  // A limit of quads near the largest number goes before, and sizes that follow the shape need no more.
   options = byShape();
-  options.maximumNumberOfQuads = 8000;
-  EXPECT_EQ(sizedFor(torusFor(12500), options).targetQuads, 8000U);
+  options.maximumNumberOfQuads = 39999;
+  EXPECT_EQ(sizedFor(torusFor(12500), options).targetQuads, kLeastQuadsOfShape);
+  options.maximumNumberOfQuads = 40000;
+  EXPECT_EQ(sizedFor(torusFor(12500), options).targetQuads, 14000U);
   options = byShape();
   options.sizes.turn = radians(30);
   EXPECT_EQ(sizedFor(torusFor(12500), options).targetQuads, kLeastQuadsOfShape);
