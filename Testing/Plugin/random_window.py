@@ -34,7 +34,7 @@ import test_places
 DRAWN = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature", "Size", "Clear")
 BUTTONS = ("Remove", "Undo", "Redo", "Number", "Drag", "Source")
 DEFAULTS = {"filters": {"QuadRemesh": {"RankIndependent": 1}}}  # as a user saves them by the panel's button
-NUMBERS = (1500, 3000, 4000, 6000)  # of quads
+NUMBERS = (0, 1500, 3000, 4000, 6000)  # of quads; 0: the shape says how many
 SOURCES = {"Quad Stroke": 3, "Quad Valence": 1, "Quad Move": 2, "Quad Feature Curve": 3}  # and their points
 
 
