@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HelpMenu.h"
+#include "PipelineRows.h"
 #include "UndoInTrace.h"
 #include "WindowPauses.h"
 #include "pqQuadrilleHandles.h"
@@ -38,6 +39,7 @@ void placeToolBar()
     quadrille::addToHelpMenu(window, bar->drawing());
     quadrille::traceUndo(bar);
     quadrille::writePauses(bar);
+    quadrille::keepRows(bar);
   }
 }
 

@@ -113,7 +113,8 @@ pqQuadrilleToolBar::pqQuadrilleToolBar(QWidget* parent)
   this->setObjectName("QuadrilleToolBar");
   this->Drawing->setObjectName("QuadrilleDrawing");
   this->Remesh = this->add("Remesh",
-    "Quad Remesh: makes about 5,000 quads of what is selected in the pipeline; its panel sets "
+    "Quad Remesh: makes quads of what is selected in the pipeline, as many as its shape needs; its "
+    "panel sets "
     "another number");
   QObject::connect(this->Remesh, &QAction::triggered, this, &pqQuadrilleToolBar::makeQuads);
   this->addSeparator();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadrilleWidgets.h"
 
+#include "pqQuadNumberWidget.h"
 #include "pqQuadVerdictWidget.h"
 
 #include "vtkSMProperty.h"
@@ -14,7 +15,12 @@ pqPropertyWidget* pqQuadrilleWidgets::createWidgetForProperty(
 {
   const std::string name = proxy->GetXMLName() ? proxy->GetXMLName() : "";
   const bool hasVerdict = name == "QuadRemesh" || name == "QuadCADProjection";
-  return hasVerdict && property == proxy->GetProperty("Verdict")
-    ? new pqQuadVerdictWidget(proxy, property, parent)
+  if (hasVerdict && property == proxy->GetProperty("Verdict"))
+  {
+    return new pqQuadVerdictWidget(proxy, property, parent);
+  }
+  const bool hasNumber = name == "QuadRemesh" || name == "DecimationHierarchy";
+  return hasNumber && property == proxy->GetProperty("NumberOfQuads")
+    ? new pqQuadNumberWidget(proxy, property, parent)
     : nullptr;
 }

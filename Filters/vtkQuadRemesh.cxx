@@ -15,6 +15,7 @@
 #include "Convert/Quads.h"
 #include "Evaluation/ConstraintMeasures.h"
 #include "Pipeline/Pipeline.h"
+#include "Pipeline/QuadsOfShape.h"
 #include "Pipeline/ResultStore.h"
 #include "Runs/BackgroundRun.h"
 #include "Runs/Problems.h"
@@ -239,7 +240,8 @@ const char* vtkQuadRemesh::GetRemedyText()
         text << "RelativeEdgeLength " << this->GetRelativeEdgeLength() / 2;
         break;
       default:
-        text << "NumberOfQuads " << ofHalfTheLength * this->GetNumberOfQuads();
+        text << "NumberOfQuads "
+             << ofHalfTheLength * (this->NumberOfQuads > 0 ? this->NumberOfQuads : target);
     }
   }
   this->RemedyText = text.str();
@@ -343,8 +345,9 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   }
   const quadrille::RemeshResult& result = made.remeshed;
   asked.curves = result.curves;
+  const std::optional<std::size_t> quads = quadrille::quadsAsked(options, result.targetQuads);
   asked.edgeLength =
-    quadrille::lengthOfSizeOne(result.targetEdgeLength, options.quads, result.quads.quads.size());
+    quadrille::lengthOfSizeOne(result.targetEdgeLength, quads, result.quads.quads.size());
   this->TellRun(block, result);
   if (made.thinning)
   {
@@ -357,11 +360,11 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     return;
   }
   this->WriteQuads(block, { converted, asked, made });
-  if (!block.path.empty() && options.quads && !options.coarsestIntegers &&
-    quadrille::isFarFrom(*options.quads, block))
+  if (!block.path.empty() && quads && !options.coarsestIntegers &&
+    quadrille::isFarFrom(*quads, block))
   {
     this->AddNotice("has " + std::to_string(result.quads.quads.size()) +
-      " quads where its share is " + std::to_string(*options.quads) +
+      " quads where its share is " + std::to_string(*quads) +
       ": its topology and its features take so many");
   }
   if (this->MakesMappedSurface())

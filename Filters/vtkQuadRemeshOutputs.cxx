@@ -87,7 +87,9 @@ std::string defectText(
   return text.str();
 }
 
-std::string resultText(const quadrille::RemeshResult& result, vtkIdType irregular)
+/// asked: what the run was asked for, without sizes.
+std::string resultText(
+  const quadrille::RemeshResult& result, vtkIdType irregular, const quadrille::RemeshOptions& asked)
 {
   std::ostringstream text;
   if (result.quads.quads.empty())
@@ -95,8 +97,9 @@ std::string resultText(const quadrille::RemeshResult& result, vtkIdType irregula
     text << "No quads, as the method makes none: the mapped surface is the result.";
     return text.str();
   }
-  text << result.quads.quads.size() << " quads (about " << result.targetQuads << " asked for), "
-       << irregular << " irregular vertices";
+  const bool isOfShape = asked.growsWithShape && result.targetQuads > *asked.quads;
+  text << result.quads.quads.size() << " quads (about " << result.targetQuads
+       << (isOfShape ? " for its shape), " : " asked for), ") << irregular << " irregular vertices";
   return text.str();
 }
 
@@ -184,7 +187,8 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   block.output(this->GetProblemPort())->ShallowCopy(quadrille::writeProblems(problems));
   block.state->report.hasDefect = !defect.empty();
   block.state->report.numbers["InvertedQuads"] = static_cast<double>(problems.inverted.size());
-  block.state->report.result = defect + resultText(result, written.irregular->GetNumberOfPoints()) +
+  block.state->report.result = defect +
+    resultText(result, written.irregular->GetNumberOfPoints(), this->MakeOptions(block)) +
     (defect.empty() && !result.quads.quads.empty() ? ", all valid" : "") + constraintText(words);
   block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
 }
@@ -206,7 +210,8 @@ void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::Asked
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
   block.output(7)->ShallowCopy(
     quadrille::writeSmallDetails(result.details, result.givenUpFeatures));
-  this->SetResult("preview: " + resultText(result, written.irregular->GetNumberOfPoints()) +
+  this->SetResult("preview: " +
+    resultText(result, written.irregular->GetNumberOfPoints(), this->MakeOptions(block)) +
     constraintText(words));
   block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
 }

@@ -6,6 +6,7 @@
 #include "Blocks/Blocks.h"
 #include "Convert/PolyData.h"
 #include "Pipeline/Options.h"
+#include "Pipeline/QuadsOfShape.h"
 #include "Runs/GivenInputs.h"
 
 #include "vtkCellData.h"
@@ -122,9 +123,17 @@ void vtkQuadrilleSurfaceAlgorithm::SetQuadsOfBlocks(const char* pairs)
 }
 
 //------------------------------------------------------------------------------
+double vtkQuadrilleSurfaceAlgorithm::GetQuadsOfAll() const
+{
+  return static_cast<double>(this->NumberOfQuads != BY_SHAPE
+      ? this->NumberOfQuads
+      : static_cast<vtkIdType>(quadrille::kLeastQuadsOfShape));
+}
+
+//------------------------------------------------------------------------------
 double vtkQuadrilleSurfaceAlgorithm::GetSharedTarget() const
 {
-  return this->TargetType == TARGET_NUMBER_OF_QUADS ? static_cast<double>(this->NumberOfQuads) : 0;
+  return this->TargetType == TARGET_NUMBER_OF_QUADS ? this->GetQuadsOfAll() : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -132,8 +141,7 @@ double vtkQuadrilleSurfaceAlgorithm::LeastAreaShare(std::size_t blocks, double t
 {
   // Fewer quads than this are no shape of a part, whatever the others are.
   constexpr double leastQuads = 50;
-  const double quads =
-    this->TargetType == TARGET_NUMBER_OF_QUADS ? target : static_cast<double>(this->NumberOfQuads);
+  const double quads = this->TargetType == TARGET_NUMBER_OF_QUADS ? target : this->GetQuadsOfAll();
   return std::min(leastQuads / std::max(1.0, quads),
     0.5 / static_cast<double>(std::max(blocks, std::size_t{ 1 })));
 }
@@ -169,14 +177,15 @@ quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(
   quadrille::RemeshOptions options;
   if (this->TargetType == TARGET_NUMBER_OF_QUADS)
   {
-    if (this->NumberOfQuads < 1)
+    if (this->NumberOfQuads < 0)
     {
-      throw quadrille::InvalidInput("NumberOfQuads must be at least 1");
+      throw quadrille::InvalidInput(
+        "NumberOfQuads must be at least 1, or 0 for as many as the shape needs");
     }
-    const double share = block.ownTarget > 0
-      ? block.ownTarget
-      : block.areaShare * static_cast<double>(this->NumberOfQuads);
+    const double share =
+      block.ownTarget > 0 ? block.ownTarget : block.areaShare * this->GetQuadsOfAll();
     options.quads = static_cast<std::size_t>(std::max(1.0, std::round(share)));
+    options.growsWithShape = this->NumberOfQuads == BY_SHAPE && !(block.ownTarget > 0);
   }
   else if (this->TargetType == TARGET_EDGE_LENGTH)
   {

@@ -58,6 +58,12 @@ public:
     TARGET_RELATIVE_EDGE_LENGTH = 2
   };
 
+  /// The value of NumberOfQuads that leaves the number to the shape.
+  enum NumberOfQuadsTypes
+  {
+    BY_SHAPE = 0
+  };
+
   ///@{
   /// The optional inputs.
   void SetCurvesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
@@ -121,10 +127,13 @@ public:
 
   ///@{
   /**
-   * Target number of quads, at least 1. Default: 5000.
+   * Target number of quads, at least 1; or 0, BY_SHAPE: as many as the shape needs, 5000 or up to 20000, so that the
+   * surface turns by more than 45 degrees over an edge on at most 5 % of its area; a notice tells the number where it
+   * is more than 5000. Blocks that share 5000 by area each get up to four times their share. Default: 0.
    */
   vtkSetMacro(NumberOfQuads, vtkIdType);
   vtkGetMacro(NumberOfQuads, vtkIdType);
+  void SetNumberOfQuadsToByShape() { this->SetNumberOfQuads(BY_SHAPE); }
   ///@}
 
   /// The values of QuadsAre, see there.
@@ -241,6 +250,8 @@ protected:
 
   bool HasCommonTarget() const override { return this->QuadsAre == QUADS_ARE_SHARED_BY_AREA; }
 
+  /// NumberOfQuads, or the least number where the shape says how many.
+  double GetQuadsOfAll() const;
   double GetSharedTarget() const override;
   double LeastAreaShare(std::size_t blocks, double target) const override;
   double ReadOwnTarget(const std::string& block, vtkFieldData* fieldData) const override;
@@ -260,7 +271,7 @@ protected:
   std::string GetGuideArrayInUse() const;
 
   int TargetType = TARGET_NUMBER_OF_QUADS;
-  vtkIdType NumberOfQuads = 5000;
+  vtkIdType NumberOfQuads = BY_SHAPE;
   int QuadsAre = QUADS_ARE_SHARED_BY_AREA;
   std::string QuadsOfBlocks;
   double EdgeLength = 1;

@@ -7,6 +7,7 @@
 #include "Native/Errors.h"
 #include "Native/ProgressCall.h"
 #include "Native/Results.h"
+#include "Pipeline/QuadsOfShape.h"
 #include "Prepare/ConstraintPlacement.h"
 #include "Session/SessionText.h"
 
@@ -171,8 +172,8 @@ py::dict remeshCall(const py::dict& surface, const std::string& settings, const 
     throw RunFailure(result.status.message.empty() ? "remeshing failed" : result.status.message);
   }
   remeshed.asked.curves = result.curves;
-  remeshed.asked.edgeLength =
-    lengthOfSizeOne(result.targetEdgeLength, options.quads, result.quads.quads.size());
+  remeshed.asked.edgeLength = lengthOfSizeOne(
+    result.targetEdgeLength, quadsAsked(options, result.targetQuads), result.quads.quads.size());
   if (remeshed.made.thinning)
   {
     remeshed.notices.push_back(remeshed.made.thinning->text());

@@ -114,7 +114,8 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter, std::string& byNam
       filter->SetTargetTypeToNumberOfQuads();
       filter->SetNumberOfQuads(quads);
     },
-    "target number of quads (default 5000)");
+    "target number of quads (default: as many as the shape needs, 5000 or up to 20000, which a "
+    "notice tells)");
   options.addNumber(
     "edge-length", "S", { kSmallestLength, 1e300 },
     [filter](double length)

@@ -5,6 +5,7 @@
 #include "Base/Angles.h"
 #include "Base/Error.h"
 #include "Base/Refuse.h"
+#include "Pipeline/QuadsOfShape.h"
 #include "Ways/Ways.h"
 
 #include <algorithm>
@@ -16,8 +17,6 @@ namespace quadrille
 
 namespace
 {
-
-constexpr std::size_t kQuadsWithoutSize = 5000;
 
 template <class Values>
 void requireOneEach(
@@ -82,7 +81,7 @@ RemeshOptions runOptionsOf(const QuadOptions& options)
   }
   else if (!options.quads && !options.edgeLength)
   {
-    run.quads = kQuadsWithoutSize;
+    askForQuadsOfShape(run);
   }
   run.featureAngle.reset();
   if (options.featureAngle)

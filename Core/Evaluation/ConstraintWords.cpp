@@ -224,6 +224,14 @@ ConstraintWord Judge::measured(std::size_t i)
     return placed(
       unknownWord("valence", constraint.source, "edge lengths", constraint.whyNot), place);
   }
+  const bool isPlace =
+    constraint.kind == ConstraintKind::Size || constraint.kind == ConstraintKind::Cleared;
+  if ((isPlace || isLine(constraint)) && !constraint.whyNot.empty())
+  {
+    const char* unit = constraint.kind == ConstraintKind::Size ? "factor" : "edge lengths";
+    return placed(
+      unknownWord(nameOf(constraint.kind), constraint.source, unit, constraint.whyNot), place);
+  }
   if (constraint.kind == ConstraintKind::Valence)
   {
     return valenceAt(constraint.source, place, constraint.valence);

@@ -404,6 +404,28 @@ bool removeOnce(
       dropAlongThinPatches(mesh, smallest, chains, report));
 }
 
+/// Whether a curve of features passes a place within a distance, and is nowhere farther from another one.
+bool runsAlong(
+  const Mesh& mesh, const Chain& chain, const Chain& other, const Vector3& place, double within)
+{
+  const auto isNear = [&](const Chain& curve, const Vector3& p)
+  {
+    return std::any_of(curve.halfEdges.begin(), curve.halfEdges.end(),
+      [&](Index h)
+      {
+        return distanceToSegment(p, mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)]) <=
+          within;
+      });
+  };
+  return isNear(chain, place) &&
+    std::all_of(chain.halfEdges.begin(), chain.halfEdges.end(),
+      [&](Index h)
+      {
+        return !mesh.isBoundary(h) && isNear(other, mesh.position[mesh.origin[h]]) &&
+          isNear(other, mesh.position[mesh.target(h)]);
+      });
+}
+
 } // namespace
 
 FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double smallest, int threads)
@@ -462,7 +484,7 @@ std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& po
 }
 
 std::vector<ClearedFeature> clearFeatures(
-  Mesh& mesh, const std::vector<Vector3>& places, double within)
+  Mesh& mesh, const std::vector<Vector3>& places, double within, double beside)
 {
   constexpr auto keep = static_cast<std::uint8_t>(~(kFeatureEdge | kRequestedFeature));
   std::vector<ClearedFeature> cleared;
@@ -495,6 +517,14 @@ std::vector<ClearedFeature> clearFeatures(
     {
       found.length = nearest->length;
       gone.push_back(nearest);
+      for (const Chain& chain : chains)
+      {
+        if (&chain != nearest && runsAlong(mesh, chain, *nearest, place, beside))
+        {
+          ++found.beside;
+          gone.push_back(&chain);
+        }
+      }
     }
   }
   for (const Chain* chain : gone)

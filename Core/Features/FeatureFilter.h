@@ -40,14 +40,16 @@ struct ClearedFeature
 {
   double distance = 0;               ///< of the nearest feature; infinite where there is none
   Vector3 nearest = Vector3::Zero(); ///< the nearest place on it
-  double length = 0; ///< of the curve that is none any more; 0: the nearest is too far away
+  double length = 0;      ///< of the curve that is none any more; 0: the nearest is too far away
+  std::size_t beside = 0; ///< curves that run along it and went with it
 };
 
 /// Unmarks, for each place, the curve of features that is nearest to it, if that is within a distance: one between
-/// vertices where other than two constrained edges meet, or a loop. Also those that were asked for. What one place
-/// clears the others do not see.
+/// vertices where other than two constrained edges meet, or a loop; and others that pass the place within `beside` and
+/// are nowhere farther from it, as the other side of a step that nobody sees. Also those that were asked for. What one
+/// place clears the others do not see.
 std::vector<ClearedFeature> clearFeatures(
-  Mesh& mesh, const std::vector<Vector3>& places, double within);
+  Mesh& mesh, const std::vector<Vector3>& places, double within, double beside);
 
 /// A length of features as messages tell it, to two or three digits.
 std::string inEdgeLengths(double length);

@@ -18,8 +18,8 @@ namespace quadrille
 namespace
 {
 
-/// The surface in the frame, thinned out. input: what is drawn is left of it.
-ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, SizedSurface& sized)
+/// The surface in the frame, thinned out. input: what is drawn is left of it; options: get the number of quads.
+ThinnedSurface thinOut(SurfaceInput& input, RemeshOptions& options, SizedSurface& sized)
 {
   PreparedSurface fine =
     prepareDrawn(input, options, subProgress(options.progress, 0.0, 0.25, "Preparing: "), sized);

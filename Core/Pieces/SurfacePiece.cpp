@@ -10,12 +10,15 @@
 #include "Pieces/CarriedPlaces.h"
 #include "Pieces/HandlesOfPiece.h"
 #include "Pipeline/PlannedSurface.h"
+#include "Pipeline/QuadsOfShape.h"
 #include "Pipeline/ResultStore.h"
 #include "Pipeline/SmallParts.h"
 #include "Prepare/Prepare.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace quadrille
@@ -32,9 +35,10 @@ constexpr double kEdgeOfSmallest = 0.5;
 PieceOptions pieceOptionsOf(const RemeshOptions& options, double area, double boundingBoxDiagonal)
 {
   PieceOptions piece;
-  const double s = options.quads ? std::sqrt(area / static_cast<double>(*options.quads))
-    : options.edgeLength         ? *options.edgeLength
-                                 : options.relativeEdgeLength * boundingBoxDiagonal;
+  const std::optional<std::size_t> quads = mostQuads(options);
+  const double s = quads ? std::sqrt(area / static_cast<double>(*quads))
+    : options.edgeLength ? *options.edgeLength
+                         : options.relativeEdgeLength * boundingBoxDiagonal;
   piece.edgeLength = s *
     (options.sizes.any() ? std::min(kEdgeOfPiece, kEdgeOfSmallest * options.sizes.smallest)
                          : kEdgeOfPiece);

@@ -19,6 +19,8 @@ namespace
 
 /// Edge lengths between a place and the feature curve that it clears, at most.
 constexpr double kNearCleared = 0.5;
+/// The same to curves that go with one that is cleared: nearer ones would be taken for it, see kMetDistance.
+constexpr double kBesideCleared = 0.3;
 
 /// Orders of sizes of points, at the vertices that they became.
 std::vector<int> sizingOrdersOf(const std::vector<int>& orders, const PreparedSurface& surface)
@@ -79,7 +81,7 @@ void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, do
     return;
   }
   const std::vector<ClearedFeature> cleared =
-    clearFeatures(surface.mesh, places, kNearCleared * edgeLength);
+    clearFeatures(surface.mesh, places, kNearCleared * edgeLength, kBesideCleared * edgeLength);
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const ClearedFeature& found = cleared[i];
@@ -87,7 +89,8 @@ void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, do
     if (found.length > 0)
     {
       notices.push_back("the feature curve at " + where + ", " +
-        inEdgeLengths(found.length / edgeLength) + " edge lengths long, is cleared, as asked");
+        inEdgeLengths(found.length / edgeLength) + " edge lengths long, is cleared, as asked" +
+        (found.beside > 0 ? ", with " + std::to_string(found.beside) + " beside it" : ""));
     }
     else if (std::isfinite(found.distance))
     {

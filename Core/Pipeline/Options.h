@@ -40,6 +40,8 @@ struct RemeshOptions
   std::optional<std::size_t> quads; ///< target number of quads, >= 1
   std::optional<double> edgeLength; ///< target edge length in units of the input, > 0
   double relativeEdgeLength = 0.02; ///< target edge length over the bounding-box diagonal, > 0
+  /// With quads: these are the least, and more where the shape needs them, see QuadsOfShape.h.
+  bool growsWithShape = false;
   std::optional<double> featureAngle = radians(40); ///< radians; none: no detection
   FeatureCriterion featureCriterion = FeatureCriterion::Creases;
   AdaptiveSizes

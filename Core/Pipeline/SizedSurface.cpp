@@ -13,6 +13,7 @@
 #include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/Notices.h"
 #include "Pipeline/PlannedSurface.h"
+#include "Pipeline/QuadsOfShape.h"
 #include "Pipeline/RequestKeys.h"
 #include "Prepare/Frame.h"
 #include "Prepare/Prepare.h"
@@ -435,11 +436,14 @@ bool isPrepared(const KnownInput& known, const RemeshOptions& options)
   return findIn<StoredPrepared>(known.store, preparedKey(known.inputHash, options)) != nullptr;
 }
 
-SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, const KnownInput& known)
+SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& given, const KnownInput& known)
 {
   SizedSurface sized;
   ResultStore* store = known.store;
-  PreparedOfRun prepared = findOrPrepare(input, options, known, sized);
+  PreparedOfRun prepared = findOrPrepare(input, given, known, sized);
+  RemeshOptions options = given;
+  const std::string ofNumber =
+    settleQuads(prepared.surface, prepared.sizedArea, store, prepared.key, options);
   if (!input.drawn.sizes.empty())
   {
     findOrAddSizes(input, options, store, prepared, sized);
@@ -466,13 +470,15 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
   }
   addDrawn(input, options, surface, sized);
   input = {};
+  tell({ ofNumber }, sized.notices); // not before: what is stored may be of a number that was given
   return finished(std::move(surface), options, store, std::move(sized));
 }
 
-PreparedSurface prepareDrawn(SurfaceInput& input, const RemeshOptions& options,
+PreparedSurface prepareDrawn(SurfaceInput& input, RemeshOptions& options,
   const ProgressCallback& progress, SizedSurface& sized)
 {
   PreparedSurface surface = prepareInput(input, options, progress, sized.stages);
+  tell({ settleQuads(surface, areaOverSizes(surface), nullptr, 0, options) }, sized.notices);
   const double edgeLength =
     targetEdgeLength(options, areaOverSizes(surface), surface.boundingBoxDiagonal);
   if (!input.drawn.features.empty())

@@ -66,8 +66,8 @@ SizedSurface sizeSurface(
 
 /// The steps of sizeSurface for a surface that becomes another between them and stays nowhere else. First: repaired,
 /// in order, with its features, and with those and the sizes that are drawn. What is drawn is left of the input. sized:
-/// gets stages and notices.
-PreparedSurface prepareDrawn(SurfaceInput& input, const RemeshOptions& options,
+/// gets stages and notices. options: get the number of quads where that grows with the shape.
+PreparedSurface prepareDrawn(SurfaceInput& input, RemeshOptions& options,
   const ProgressCallback& progress, SizedSurface& sized);
 /// Then from the prepared surface on. sized: as the first step has left it. drawn: in the frame; its features are drawn
 /// already, so that one at a cleared place is cleared with what was there.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 // Settings as JSON: settingsToJson and settingsFromJson.
+#include "Pipeline/QuadsOfShape.h"
 #include "Session/JsonFields.h"
 #include "Session/SessionJson.h"
 
@@ -13,6 +14,8 @@ namespace quadrille
 namespace
 {
 
+/// The number of quads where the shape of the surface says how many.
+constexpr std::size_t kByShape = 0;
 constexpr std::array<const char*, 4> kMethods{ "scale-aware", "mixed-integer", "quadcover",
   "seamless" };
 constexpr std::array<const char*, 2> kFeatureCriteria{ "creases", "angle" };
@@ -27,13 +30,13 @@ template <typename Fields, typename Options>
 void settingsFields(Fields& fields, Options& options)
 {
   // By name, so that an option that is new has to be put on one side or the other here.
-  auto& [quads, edgeLength, relativeEdgeLength, featureAngle, featureCriterion, shapeSizes,
-    curvatureGuides, method, coarsestIntegers, coarseVertices, decimationCost, smallestDetail,
-    smallDetails, removeSmallComponents, leavesOutFailed, anisotropyLimit, finalQuality,
-    distortionMetric, maximumNumberOfQuads, preview, smoothingSteps, memoryLimit, keepsPositions,
-    mergeCharts, knownMap, threads, warmStart, progress] = options;
+  auto& [quads, edgeLength, relativeEdgeLength, growsWithShape, featureAngle, featureCriterion,
+    shapeSizes, curvatureGuides, method, coarsestIntegers, coarseVertices, decimationCost,
+    smallestDetail, smallDetails, removeSmallComponents, leavesOutFailed, anisotropyLimit,
+    finalQuality, distortionMetric, maximumNumberOfQuads, preview, smoothingSteps, memoryLimit,
+    keepsPositions, mergeCharts, knownMap, threads, warmStart, progress] = options;
   const auto notThese = [](const auto&... /*values*/) {};
-  notThese(quads, edgeLength, relativeEdgeLength);
+  notThese(quads, edgeLength, relativeEdgeLength, growsWithShape);
   notThese(decimationCost, leavesOutFailed); // sessions have the default ones
   notThese(preview, memoryLimit, keepsPositions, mergeCharts, knownMap, threads, progress);
   fields.orNull("feature_angle", featureAngle);
@@ -64,7 +67,15 @@ SessionJson settingsToJson(const RemeshOptions& options)
 {
   SessionJson json;
   FieldWriter writer(json);
-  if (options.quads)
+  if (options.quads && options.growsWithShape)
+  {
+    writer.need("quads", kByShape);
+    if (*options.quads != kLeastQuadsOfShape)
+    {
+      writer.need("least_quads", *options.quads);
+    }
+  }
+  else if (options.quads)
   {
     writer.need("quads", *options.quads);
   }
@@ -94,10 +105,16 @@ void settingsFromJson(const SessionJson& json, RemeshOptions& options, const std
   {
     options.quads.reset();
     options.edgeLength.reset();
+    options.growsWithShape = false;
   }
   if (reader.has("quads"))
   {
     reader.need("quads", options.quads.emplace());
+    if (*options.quads == kByShape)
+    {
+      askForQuadsOfShape(options);
+      reader.may("least_quads", *options.quads);
+    }
   }
   if (reader.has("edge_length"))
   {

@@ -8,6 +8,7 @@
 #include "Requests/Guides.h"
 #include "Session/ComposedInput.h"
 #include "Session/ConstraintReports.h"
+#include "Session/DrawnRun.h"
 #include "Symmetry/Symmetry.h"
 
 #include <algorithm>
@@ -362,39 +363,25 @@ private:
       }
     }
     std::map<int, std::string> without = leftOut;
-    std::string whyNot;
-    std::optional<std::size_t> last;
-    for (std::size_t count = rest.size(); count-- > 0;)
-    {
-      const int id = state_.constraints[rest[count]]->id;
-      without[id] = "not tried";
-      countTry(Try::WithoutConstraint, wasStopped_ ? 0 : 1);
-      const RemeshResult made = runWith(without);
-      if (!fails(made, without))
+    const auto last = quadrille::lastOfShortestFailing(rest.size(),
+      [&](std::size_t count)
       {
-        last = rest[count];
-        break;
-      }
-    }
+        without[state_.constraints[rest[count]]->id] = "not tried";
+        countTry(Try::WithoutConstraint, wasStopped_ ? 0 : 1);
+        return fails(runWith(without), without);
+      });
     if (!last)
     {
       return std::nullopt;
     }
     // The reason is that of the row with it.
-    const int id = state_.constraints[*last]->id;
+    const int id = state_.constraints[rest[*last]]->id;
     without.erase(id);
-    whyNot = reasonOf(runWith(without));
-    std::string others;
-    for (const std::size_t i : rest)
-    {
-      if (i < *last)
-      {
-        others += (others.empty() ? "" : ", ") + state_.constraints[i]->name();
-      }
-    }
-    return std::make_pair(id,
-      "it cannot be met" + (others.empty() ? std::string() : " together with " + others) + ": " +
-        whyNot);
+    const std::string whyNot = reasonOf(runWith(without));
+    std::vector<std::string> before;
+    std::transform(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(*last),
+      std::back_inserter(before), [this](std::size_t i) { return state_.constraints[i]->name(); });
+    return std::make_pair(id, cannotBeMet(before, whyNot));
   }
 
   SessionData& data_;

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <unordered_set>
 
 namespace quadrille
 {
@@ -327,6 +328,33 @@ std::vector<PatchCurvature> patchCurvatures(
       }
     });
   return result;
+}
+
+PatchCurvature curvatureRound(const Mesh& mesh, Index face, double radius)
+{
+  std::vector<Index> near{ face };
+  std::unordered_set<Index> isNear{ face };
+  const Vector3 middle = mesh.middleOfFace(face);
+  Bend sum;
+  double area = 0;
+  Vector3 normal = Vector3::Zero();
+  for (std::size_t i = 0; i < near.size(); ++i)
+  {
+    const Vector3 own = areaVector(mesh, near[i]);
+    sum.tensor += bendOf(mesh, near[i]);
+    area += own.norm();
+    normal += own;
+    for (Index h = 3 * near[i]; h < 3 * near[i] + 3; ++h)
+    {
+      const Index next = mesh.isConstrained(h) ? face : Mesh::face(mesh.twin[h]);
+      if ((mesh.middleOfFace(next) - middle).norm() <= radius && isNear.insert(next).second)
+      {
+        near.push_back(next);
+      }
+    }
+  }
+  return curvatureOf(
+    sum, area, normal.norm() > 0 ? Vector3(normal.normalized()) : Vector3(Vector3::Zero()));
 }
 
 } // namespace quadrille

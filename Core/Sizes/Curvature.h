@@ -53,4 +53,8 @@ struct PatchCurvature
 std::vector<PatchCurvature> patchCurvatures(
   const Mesh& mesh, const SurfacePatches& patches, double radius, int threads);
 
+/// The same of one place: over the faces whose middle is within `radius` of that of `face`, reached over such ones and
+/// not across features; curves aside.
+PatchCurvature curvatureRound(const Mesh& mesh, Index face, double radius);
+
 } // namespace quadrille

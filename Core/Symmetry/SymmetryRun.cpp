@@ -10,6 +10,9 @@
 #include "Features/FeatureFilter.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
+#include "Pipeline/Notices.h"
+#include "Pipeline/PlannedSurface.h"
+#include "Pipeline/QuadsOfShape.h"
 #include "Pipeline/SizedSurface.h"
 #include "Pipeline/SmallDetails.h"
 #include "Prepare/Prepare.h"
@@ -171,6 +174,7 @@ void SymmetryRun::prepare(SurfaceInput& input)
   {
     told_.notices.push_back("input: " + sentence);
   }
+  tell({ settleQuads(surface(), areaOverSizes(surface()), store_, key_, options_) }, told_.notices);
   made_.diagonal = surface().boundingBoxDiagonal;
   tolerance_ = kMirrorTolerance * made_.diagonal;
   asked_.drawn = std::move(input.drawn);

@@ -94,7 +94,7 @@ private:
   TopologySummary madeTopology() const;
   void tellTopology();
 
-  const RemeshOptions& options_;
+  RemeshOptions options_; ///< with the number of quads of the whole, once it is known
   ResultStore* store_;
   Isometry isometry_;
   Asked asked_;

@@ -8,7 +8,7 @@
 #include "Pieces/SurfacePiece.h"
 #include "Quads/PolygonUnder.h"
 #include "Requests/SurfacePlaces.h"
-#include "Session/Moves.h"
+#include "Session/DrawnRun.h"
 
 #include <algorithm>
 #include <utility>
@@ -245,8 +245,9 @@ QuadsMade remesh(const QuadProblem& problem)
   made.way = problem.symmetry ? Way::Symmetric : Way::Whole;
   const auto run = [&problem](SurfaceInput surface, const RemeshOptions& how)
   { return remeshUnthinned(std::move(surface), how, problem); };
-  SymmetricResult result = hasMoves
-    ? remeshWithMoves(input, options, run, knownOfMoves(problem), *problem.placed, made.warnings)
+  const bool hasDrawn = problem.placed != nullptr && !problem.placed->empty();
+  SymmetricResult result = hasDrawn
+    ? remeshWithDrawn(input, options, run, knownOfMoves(problem), *problem.placed, made.warnings)
     : run(std::move(input), options);
   made.remeshed = std::move(result.remeshed);
   if (problem.symmetry)

@@ -3,7 +3,7 @@
 """Pure quad remeshing of triangle surfaces, in pvpython, in the system's python3, and by pip without VTK.
 
     import quadrille
-    quads = quadrille.remesh(quadrille.read("part.ply"))        # vtkPolyData in, vtkPolyData out; about 5,000 quads
+    quads = quadrille.remesh(quadrille.read("part.ply"))        # vtkPolyData in, vtkPolyData out
     quads = quadrille.remesh((points, faces), edge_length=0.5)  # arrays or lists in
     points, faces = quadrille.to_arrays(quads)
     quadrille.write(quads, "part.inp")                          # with sets for CalculiX, Gmsh, Exodus II, ...
@@ -120,7 +120,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         lists: points #V by 3, faces #F by 3 or by 4, or one list of point ids a face, also as VTK has them, with the
         number of corners before the corners; or an object with `vertices` and `faces`.
     quads, edge_length, relative_edge_length: target number of quads, target edge length in units of the mesh, or over
-        the diagonal of its bounding box; at most one of them; 5,000 quads when none is given.
+        the diagonal of its bounding box; at most one of them. Where none is, or with
+        quads="automatic", 5,000 quads, or up to 20,000 where shapes would melt with fewer, which a notice tells.
     feature_angle: degrees; edges sharper than this become edges of the quads; None turns the detection off.
     feature_criterion: which of these edges: "creases", those of curves that are creases as a whole, which the noise of
         scans is not, or "angle", all that quads of this size can follow.

@@ -3,7 +3,7 @@
 # Types of the package; what they mean is in the docstrings. Testing/Native/test_types.py holds it against them.
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -58,7 +58,7 @@ class Irregular(NamedTuple):
 def remesh(
     mesh: MeshLike,
     *,
-    quads: int | None = ...,
+    quads: int | Literal["automatic"] | None = ...,
     edge_length: float | None = ...,
     relative_edge_length: float | None = ...,
     feature_angle: float | None = ...,
@@ -134,7 +134,7 @@ def wrap(
 
 class Session:
     def __init__(
-        self, mesh: MeshLike, *, quads: int | None = ..., edge_length: float | None = ...,
+        self, mesh: MeshLike, *, quads: int | Literal["automatic"] | None = ..., edge_length: float | None = ...,
         relative_edge_length: float | None = ..., guiding_direction: ArrayLike | None = ...,
         guiding_weight: ArrayLike | None = ..., target_valence: ArrayLike | Mapping[int, int] | None = ...,
         sizing: ArrayLike | None = ..., feature_edges: ArrayLike | None = ..., patch_ids: ArrayLike | None = ...,

@@ -24,13 +24,19 @@ FEATURE_CRITERIA = ("creases", "angle")
 #: What becomes of quads with a mirror plane there, in the order of vtkQuadRemesh.PlaneCurveTypes.
 PLANE_CURVES = ("isoline", "mid-line")
 
-#: What `quads` is where no size is given.
-DEFAULT_QUADS = 5000
+#: What `quads` is where no size is given: as many as the shape of the surface needs; and how the classes say it.
+AUTOMATIC = "automatic"
+BY_SHAPE = 0
 
 #: Arguments that are one of some names.
 NAMES = {"method": METHODS, "final_quality": FINAL_QUALITIES, "integers": INTEGERS, "cell_data": CELL_DATA,
          "small_details": SMALL_DETAILS, "small_components": SMALL_COMPONENTS,
          "feature_criterion": FEATURE_CRITERIA, "plane_curve": PLANE_CURVES}
+
+
+def number_of_quads(quads):
+    """As the classes take it."""
+    return BY_SHAPE if quads == AUTOMATIC else whole("quads", quads, least=1, hint=' (or "automatic")')
 
 
 def _size(given):
@@ -44,7 +50,7 @@ def _size(given):
         return {"relative_edge_length": real(
             "relative_edge_length", sizes["relative_edge_length"], above=0, most=1,
             hint=" (it is a part of the diagonal of the bounding box)")}
-    return {"quads": whole("quads", sizes.get("quads", DEFAULT_QUADS), least=1)}
+    return {"quads": number_of_quads(sizes.get("quads", AUTOMATIC))}
 
 
 def _numbers(given):

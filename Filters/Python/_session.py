@@ -13,6 +13,7 @@ from ._arrays import as_points
 from ._backend import backend
 from ._errors import InvalidInput, RemeshError, one_of, real, whole
 from ._inputs import as_surface, with_requests
+from ._options import AUTOMATIC, number_of_quads
 
 #: Irregular vertices: points (n by 3), which name them, and valences.
 Irregular = collections.namedtuple("Irregular", "point valence")
@@ -38,7 +39,7 @@ def _settings(quads=None, edge_length=None, relative_edge_length=None, **setting
                                              ("relative_edge_length", relative_edge_length)) if value is not None}
     if len(sizes) > 1:
         raise InvalidInput("give only one of " + " and ".join(sizes))
-    result = {name: whole(name, value, least=1) if name == "quads" else real(name, value, above=0)
+    result = {name: number_of_quads(value) if name == "quads" else real(name, value, above=0)
               for name, value in sizes.items()}
     for name, value in settings.items():
         if name in _ANGLES:
@@ -87,10 +88,11 @@ class Session:
         feature_criterion,
         chord_error (None: off), gap_quads, smallest_size, largest_size, curvature_guides (None: off), method, integers,
         coarse_vertices, smallest_detail, small_details, small_components, anisotropy_limit, final_quality,
-        distortion_metric, maximum_number_of_quads, smoothing_steps, warm_start, threads, memory_limit. 5,000 quads
-        where no size is given. progress: called as progress(fraction); False (not None) stops the run, see update."""
+        distortion_metric, maximum_number_of_quads, smoothing_steps, warm_start, threads, memory_limit. Where no size
+        is given quads is "automatic": 5,000, or up to 20,000 where the shape needs them. progress: called as
+        progress(fraction); False (not None) stops the run, see update."""
         if quads is None and edge_length is None and relative_edge_length is None:
-            quads = 5000
+            quads = AUTOMATIC
         self._begin(with_requests(
             as_surface(mesh), guiding_direction=guiding_direction, guiding_weight=guiding_weight,
             target_valence=target_valence, sizing=sizing, feature_edges=feature_edges, patch_ids=patch_ids), progress)

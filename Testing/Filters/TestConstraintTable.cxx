@@ -411,6 +411,40 @@ TEST(ConstraintTable, OfTwoContradictingValencesTheLaterOneIsLeftOut)
   EXPECT_NE(messages.warnings.find("is left out"), std::string::npos) << messages.warnings;
 }
 
+// What cannot be met together with what comes before it is left out, with the reason, and the rest has quads.
+TEST(ConstraintTable, WhatHasNoQuadsIsLeftOut)
+{
+  vtkNew<vtkPolyData> points;
+  vtkNew<vtkPoints> coordinates;
+  vtkNew<vtkIntArray> valences;
+  valences->SetName("TargetValence");
+  const double given[3][4] = { { 16, 16, 0, 5 }, { 19.98, 19.98, 0, 8 }, { 4, 4, 0, 3 } };
+  for (const double* p : given)
+  {
+    coordinates->InsertNextPoint(p[0], p[1], p[2]);
+    valences->InsertNextValue(static_cast<int>(p[3]));
+  }
+  points->SetPoints(coordinates);
+  points->GetPointData()->AddArray(valences);
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  filter->SetInputData(test::toPolyData(test::gridPlane(20, 20)));
+  filter->SetValencePointsData(points);
+  filter->SetNumberOfQuads(40);
+  filter->Update();
+  ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0);
+  vtkTable* table = filter->GetConstraintTable();
+  ASSERT_EQ(table->GetNumberOfRows(), 3);
+  EXPECT_EQ(table->GetValueByName(0, "Met").ToInt(), 1);
+  EXPECT_EQ(table->GetValueByName(1, "Met").ToInt(), 0);
+  EXPECT_EQ(table->GetValueByName(2, "Met").ToInt(), 1);
+  const std::string reason = table->GetValueByName(1, "Reason").ToString();
+  EXPECT_EQ(reason.find("it cannot be met together with valence 0: "), 0U) << reason;
+  EXPECT_NE(messages.warnings.find("valence 1 is left out: " + reason), std::string::npos)
+    << messages.warnings;
+}
+
 TEST(ConstraintTable, AgreesWithTheQuadsOfTheFilter)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(40, 40));

@@ -563,6 +563,37 @@ TEST(QuadRemeshFailure, MarksWhereAnArrayHasAValueThatCannotBe)
   }
 }
 
+// A thin ring, whose tube a quad of 5,000 goes round by more than 45 degrees.
+TEST(QuadRemesh, TheShapeSaysHowManyWhereNobodyDoes)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(600, 24, 1, 0.0102));
+  vtkNew<vtkQuadRemesh> filter;
+  filter->SetInputData(input);
+  filter->Update();
+  ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  EXPECT_EQ(filter->GetTargetQuads(), 7000);
+  EXPECT_NE(std::string(filter->GetVerdict()).find(" quads (about 7000 for its shape), "),
+    std::string::npos)
+    << filter->GetVerdict();
+  EXPECT_NE(std::string(filter->GetNoticesText()).find("7000 quads are asked for, as nobody"),
+    std::string::npos);
+  vtkNew<vtkQuadRemesh> given;
+  run(given, input, 7000);
+  EXPECT_EQ(std::string(given->GetNoticesText()).find("as nobody"), std::string::npos);
+  EXPECT_NE(
+    std::string(given->GetVerdict()).find(" quads (about 7000 asked for), "), std::string::npos);
+  ASSERT_EQ(given->GetOutput()->GetNumberOfPoints(), filter->GetOutput()->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < given->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    double a[3], b[3];
+    given->GetOutput()->GetPoint(i, a);
+    filter->GetOutput()->GetPoint(i, b);
+    ASSERT_TRUE(std::equal(a, a + 3, b)) << i;
+  }
+  run(filter, input, 5000);
+  EXPECT_EQ(filter->GetTargetQuads(), 5000);
+}
+
 TEST(QuadRemeshFailure, ShowsTheInputWhereNothingElseIs)
 {
   const vtkSmartPointer<vtkPolyData> input = sphereAndOneWithoutMap();
@@ -647,7 +678,7 @@ TEST(QuadRemeshFailure, BadPropertiesAreRefused)
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::gridPlane(4, 4));
   vtkNew<vtkQuadRemesh> filter;
   const test::Messages messages(filter);
-  run(filter, input, 0);
+  run(filter, input, -1);
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
   filter->SetTargetTypeToEdgeLength();
   filter->SetEdgeLength(-1);
@@ -1038,7 +1069,7 @@ TEST(QuadRemesh, NothingNewReturnsTheResultBefore)
   runAgain();
   EXPECT_STRNE(filter->GetReusedStagesText(), "all");
   // A failure is tried again, and forgets what was before.
-  filter->SetNumberOfQuads(0);
+  filter->SetNumberOfQuads(-1);
   runAgain();
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
   runAgain();
@@ -1073,7 +1104,7 @@ TEST(QuadRemeshFailure, PreviousResultIsKept)
   filter->SetAbortExecute(0);
 
   // An error.
-  filter->SetNumberOfQuads(0);
+  filter->SetNumberOfQuads(-1);
   filter->Update();
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
   EXPECT_EQ(sizesOf(filter), before);

@@ -37,6 +37,18 @@ def box(low, high):
     return points, numpy.array([t for p, q, r, s in sides for t in ((p, q, r), (p, r, s))])
 
 
+def thin_ring(around=600, across=24, radius=0.0102):
+    """A torus, whose tube a quad of 5,000 goes round by more than 45 degrees."""
+    u, v = numpy.meshgrid(2 * math.pi * numpy.arange(around) / around, 2 * math.pi * numpy.arange(across) / across,
+                          indexing="ij")
+    r = 1 + radius * numpy.cos(v)
+    points = numpy.stack([r * numpy.cos(u), r * numpy.sin(u), radius * numpy.sin(v)], axis=-1).reshape(-1, 3)
+    i, j = numpy.meshgrid(numpy.arange(around), numpy.arange(across), indexing="ij")
+    a, b = across * i + j, across * ((i + 1) % around) + j
+    c, d = across * ((i + 1) % around) + (j + 1) % across, across * i + (j + 1) % across
+    return points, numpy.concatenate([numpy.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
+
+
 def hexahedra():
     """Two hexahedra side by side."""
     grid = vtkUnstructuredGrid()
@@ -303,6 +315,25 @@ class Mesh(unittest.TestCase):
     def test_the_default_is_a_number_of_quads(self):
         result = quadrille.remesh((self.points, self.faces))
         self.assertEqual(quadrille.info(result)["TargetQuads"], 5000)
+
+    def test_the_default_grows_where_shapes_would_melt(self):
+        ring = thin_ring()
+        for number in ({}, {"quads": "automatic"}, {"symmetry": "found"}):
+            told = quadrille.info(quadrille.remesh(ring, threads=1, **number))
+            self.assertEqual(told["TargetQuads"], 7000)
+            self.assertTrue(any("7000 quads are asked for, as nobody" in notice for notice in told["Notices"]))
+        self.assertEqual(quadrille.info(quadrille.remesh(ring, quads=5000, threads=1))["TargetQuads"], 5000)
+        self.assertRefused(["quads", "automatic"], ring, quads=0)
+        self.assertRefused(["quads", "automatic"], ring, quads="many")
+        session = quadrille.Session(ring, threads=1)
+        self.assertTrue(any("7000 quads are asked for" in notice for notice in session.update()["notices"]))
+        made = quadrille.to_arrays(quadrille.remesh(ring, threads=1))
+        numpy.testing.assert_array_equal(session.quads[1], made[1])
+        session.set_settings(quads=5000)
+        self.assertFalse(any("nobody" in notice for notice in session.update()["notices"]))
+        session.set_settings(quads="automatic")
+        session.update()
+        numpy.testing.assert_array_equal(session.quads[1], made[1])
 
 
 class Files(unittest.TestCase):

@@ -34,7 +34,7 @@ import test_places
 DRAWN = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature", "Size", "Clear")
 BUTTONS = ("Remove", "Undo", "Redo", "Number", "Drag", "Source")
 DEFAULTS = {"filters": {"QuadRemesh": {"RankIndependent": 1}}}  # as a user saves them by the panel's button
-NUMBERS = (1500, 3000, 4000, 6000)  # of quads
+NUMBERS = (0, 1500, 3000, 4000, 6000)  # of quads; 0: the shape says how many
 SOURCES = {"Quad Stroke": 3, "Quad Valence": 1, "Quad Move": 2, "Quad Feature Curve": 3}  # and their points
 
 
@@ -50,19 +50,6 @@ class Session(test_draw.Session):
     def steps(self):
         """How many can be undone and redone."""
         return self.value("steps()")
-
-    def set_number(self, number):
-        """By the field of the panel, and Apply."""
-        self.ask("simple.SetActiveSource(quads())")
-        old = self.value("quads().NumberOfQuads")
-        other = 8888
-        x, y = self.find_by_change(f"set_quietly('NumberOfQuads', {old})", f"set_quietly('NumberOfQuads', {other})")
-        self.xdotool("mousemove", x, y, "click", "--repeat", 3, "--delay", 80, 1, "sleep", 0.3, "type", str(number))
-        self.xdotool("sleep", 0.3)
-        self.apply()
-        self.settle()
-        if self.value("quads().NumberOfQuads") != number:
-            raise SystemExit("FAILED: the typed number of quads did not come in")
 
     def drag_point(self, chance):
         """A point of the last constraint, by its ring; whether it is seen, and moves."""

@@ -371,7 +371,7 @@ def faults():
         data = piece(points, triangles, mine)[0] if mine.any() else vtkPolyData()
         joined(remesher(data, 200), name)
     fails(remesher(vtkPolyData()), BAD_INPUT, "", "nothing anywhere")
-    fails(remesher(stripe(points, triangles)[0], 0), BAD_INPUT, "NumberOfQuads", "a property")
+    fails(remesher(stripe(points, triangles)[0], -1), BAD_INPUT, "NumberOfQuads", "a property")
 
 
 class Stop:

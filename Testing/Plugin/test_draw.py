@@ -74,6 +74,19 @@ class Session(test_places.Session):
         self.xdotool(*words, "sleep", 0.05, "mouseup", 1)
         self.settle()
 
+    def set_number(self, number):
+        """By the field of the panel, and Apply; 0: the field is emptied."""
+        self.ask("simple.SetActiveSource(quads())")
+        old = self.value("quads().NumberOfQuads")
+        x, y = self.find_by_change(f"set_quietly('NumberOfQuads', {old})", "set_quietly('NumberOfQuads', 8888)")
+        keys = ("type", str(number)) if number else ("key", "BackSpace")
+        self.xdotool("mousemove", x, y, "click", "--repeat", 3, "--delay", 80, 1, "sleep", 0.3, *keys)
+        self.xdotool("sleep", 0.3)
+        self.apply()
+        self.settle()
+        if self.value("quads().NumberOfQuads") != number:
+            raise SystemExit("FAILED: the typed number of quads did not come in")
+
     def press(self, pixel):
         """A click."""
         self.xdotool("mousemove", *self.screen(pixel), "sleep", 0.1, "click", 1)
@@ -466,6 +479,20 @@ def check_ball(session, chance):
     return not fine
 
 
+def check_number(session):
+    """A number that is typed counts; the shape says how many where the field is empty."""
+    before = session.value("quads().NumberOfQuads")
+    counts = []
+    for number in (700, 0):
+        session.set_number(number)
+        counts.append(session.value("output(0).GetNumberOfCells()"))
+    session.shot("draw-number")
+    session.ask(f"set_quietly('NumberOfQuads', {before}); simple.Render(view)")
+    session.settle()
+    print(f"with 700 typed {counts[0]} quads, with an empty field {counts[1]}")
+    return not (abs(counts[0] - 700) < 100 and counts[1] > 4500)
+
+
 def make_busy(session):
     """No constraints, and so many quads that those of an edit are not there at once."""
     session.ask(f"clear(); quads().NumberOfQuads = {BUSY}; simple.Render(view)", seconds=120)
@@ -520,27 +547,33 @@ def check_save(session, chance):
 
 
 def check_delete(session, chance):
-    """A Quad Remesh that is deleted while its quads are made is gone, and one undo brings it back."""
+    """A Quad Remesh stays selected when a constraint is drawn. Deleted while its quads are made it is gone, its surface
+    is shown, and one undo brings it back."""
     make_busy(session)
     session.take("Valence")
     place = session.screen(session.places(chance, 2)[1][0])  # not that of the check before, which is remembered
-    session.ask("simple.SetActiveSource(quads().Input)")
+    session.ask("simple.SetActiveSource(quads())")
     session.xdotool("mousemove", *place, "sleep", 0.2, "click", 1)
     session.wait_until("not is_made()")
-    session.ask("simple.SetActiveSource(quads())")  # its row has the colour of what is selected then
     rows = session.rows()
-    x, y = next((x, y) for y in range(200, 420) for x in range(30, 280, 4) if rows[y][3 * x:3 * x + 3] == SELECTED)
+    x, y = next(((x, y) for y in range(200, 420) for x in range(30, 280, 4) if rows[y][3 * x:3 * x + 3] == SELECTED),
+                (None, None))
+    if x is None:
+        session.shot("draw-not-selected")
+        print("no row of the pipeline is selected after a constraint was drawn")
+        return True
     session.xdotool("mousemove", x + 20, y + 8, "click", 1, "sleep", 0.1)  # the upper one, below which is the output
     underway = not session.value("is_made()")
     session.xdotool("key", "Delete", "sleep", 1)
     gone = session.value("quads() is None")
+    shown = session.value("[r.Visibility for r in view.Representations if hasattr(r, 'Visibility')]").count(1)
     session.shot("draw-deleted")
     session.xdotool("mousemove", *session.middle(), "key", "ctrl+z", "sleep", 1)
     session.settle()
     back = session.value("quads() is not None and output(0).GetNumberOfCells() > 0")
     session.xdotool("key", "Escape")
-    print(f"deleted while quads are made {underway}: gone {gone}, back by undo {back}")
-    return not (underway and gone and back)
+    print(f"deleted while quads are made {underway}: gone {gone}, its surface shown {shown}, back by undo {back}")
+    return not (underway and gone and shown == 1 and back)
 
 
 def check_close(session):
@@ -576,8 +609,9 @@ CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _
           "picks": lambda s, c, n: test_places.check_picks(s, c, 3 * n),
           "strokes": lambda s, c, n: test_places.check_strokes(s, c, 2 * n),
           "selection": lambda s, c, _: test_places.check_selection(s, c),
-          "stop": lambda s, c, _: check_stop(s, c), "save": lambda s, c, _: check_save(s, c),
-          "delete": lambda s, c, _: check_delete(s, c), "close": lambda s, c, _: check_close(s)}
+          "number": lambda s, c, _: check_number(s), "stop": lambda s, c, _: check_stop(s, c),
+          "save": lambda s, c, _: check_save(s, c), "delete": lambda s, c, _: check_delete(s, c),
+          "close": lambda s, c, _: check_close(s)}
 
 
 def main():

@@ -49,7 +49,8 @@ struct TriangleMesh
   std::vector<float> sizing;
 };
 
-/// At most one of the three sizes is given; where none is, 5000 quads are asked for.
+/// At most one of the three sizes is given. Where none is, 5000 quads are asked for, or up to 20000 where the shape of
+/// the surface would melt with fewer; a notice tells how many then.
 struct QuadOptions
 {
   std::optional<std::size_t> quads;         ///< about so many, >= 1

@@ -260,7 +260,7 @@ TEST(ClearFeatures, TakesTheCurveNearestToAPlaceAndNoOther)
   Mesh mesh = test::markFeatures(test::unitCube(6), 0.5);
   const Vector3 onEdge(0.5, 0, 1);
   const std::vector<ClearedFeature> cleared =
-    clearFeatures(mesh, { onEdge + Vector3(0, 0.05, 0), { 0.5, 0.5, 1 } }, 0.1);
+    clearFeatures(mesh, { onEdge + Vector3(0, 0.05, 0), { 0.5, 0.5, 1 } }, 0.1, 0.05);
   ASSERT_EQ(cleared.size(), 2u);
   EXPECT_NEAR(cleared[0].length, 1, 1e-12);
   EXPECT_NEAR(cleared[0].distance, 0.05, 1e-12);
@@ -288,7 +288,7 @@ TEST(ClearFeatures, TakesWholeLoops)
     }
   }
   ASSERT_EQ(featureEdges(mesh), 24u);
-  EXPECT_NEAR(clearFeatures(mesh, { { 1, 0, 1 } }, 0.5).front().length, 2 * 3.14159265, 0.05);
+  EXPECT_NEAR(clearFeatures(mesh, { { 1, 0, 1 } }, 0.5, 0.3).front().length, 2 * 3.14159265, 0.05);
   EXPECT_EQ(featureEdges(mesh), 0u);
 }
 
@@ -296,18 +296,40 @@ TEST(ClearFeatures, TakesWhatWasAskedFor)
 {
   Mesh mesh = test::gridPlane(12, 6);
   markRow(mesh, 2, 2, 9, kDetected | kRequestedFeature);
-  EXPECT_EQ(clearFeatures(mesh, { { 5, 2, 0 } }, 0.5).front().length, 7);
+  EXPECT_EQ(clearFeatures(mesh, { { 5, 2, 0 } }, 0.5, 0.3).front().length, 7);
   EXPECT_EQ(featureEdges(mesh), 0u);
   EXPECT_FALSE(hasDetectedFeature(mesh));
-  const ClearedFeature none = clearFeatures(mesh, { { 5, 2, 0 } }, 0.5).front();
+  const ClearedFeature none = clearFeatures(mesh, { { 5, 2, 0 } }, 0.5, 0.3).front();
   EXPECT_EQ(none.length, 0);
   EXPECT_TRUE(std::isinf(none.distance));
+}
+
+TEST(ClearFeatures, TakesTheOtherSideOfAStep)
+{
+  const auto marked = []
+  {
+    Mesh mesh = test::gridPlane(24, 8);
+    markRow(mesh, 3, 4, 16, kDetected);
+    markRow(mesh, 4, 5, 15, kDetected); // beside it, a little shorter
+    markRow(mesh, 5, 4, 20, kDetected); // beside the second one alone
+    return mesh;
+  };
+  Mesh mesh = marked();
+  EXPECT_EQ(clearFeatures(mesh, { { 9, 3, 0 } }, 0.5, 1.1).front().beside, 1u);
+  EXPECT_EQ(featureEdges(mesh), 16u);
+  mesh = marked();
+  EXPECT_EQ(clearFeatures(mesh, { { 9, 3, 0 } }, 0.5, 0.9).front().beside, 0u);
+  EXPECT_EQ(featureEdges(mesh), 26u);
+  // A shorter one does not take longer ones with it.
+  mesh = marked();
+  EXPECT_EQ(clearFeatures(mesh, { { 9, 4, 0 } }, 0.5, 1.1).front().beside, 0u);
+  EXPECT_EQ(featureEdges(mesh), 28u);
 }
 
 TEST(ClearFeatures, LeavesTheBoundary)
 {
   Mesh mesh = test::gridPlane(6, 6);
-  EXPECT_EQ(clearFeatures(mesh, { { 3, 0, 0 } }, 1).front().length, 0);
+  EXPECT_EQ(clearFeatures(mesh, { { 3, 0, 0 } }, 1, 0.3).front().length, 0);
 }
 
 TEST(FeatureFilter, NothingIsBelowZero)

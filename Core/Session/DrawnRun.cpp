@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/DrawnRun.h"
+
+#include "Base/TryCount.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+bool isDrawnMove(const PlacedConstraint& constraint)
+{
+  return constraint.kind == ConstraintKind::Move;
+}
+
+bool isDrawnCurve(const PlacedConstraint& constraint)
+{
+  return constraint.kind == ConstraintKind::Connection || constraint.kind == ConstraintKind::Cycle;
+}
+
+std::string nameOfPlaced(const PlacedConstraint& constraint)
+{
+  return std::string(nameOf(constraint.kind)) + ' ' + std::to_string(constraint.source);
+}
+
+/// Keeps those of a list that the placed ones of a kind, in their order, stand for.
+template <typename Request>
+void keepOf(ConstraintKind kind, const std::vector<PlacedConstraint>& placed,
+  const std::vector<bool>& isLeftOut, std::vector<Request>& requests)
+{
+  std::vector<Request> kept;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < placed.size(); ++i)
+  {
+    if (placed[i].kind != kind || !placed[i].whyNot.empty())
+    {
+      continue;
+    }
+    if (!isLeftOut[i])
+    {
+      kept.push_back(std::move(requests.at(at)));
+    }
+    ++at;
+  }
+  requests = std::move(kept);
+}
+
+/// Several at one place are one request.
+void keepValences(const std::vector<PlacedConstraint>& placed, const std::vector<bool>& isLeftOut,
+  std::vector<ValencePlace>& requests)
+{
+  std::set<std::size_t> kept;
+  for (std::size_t i = 0; i < placed.size(); ++i)
+  {
+    if (placed[i].kind == ConstraintKind::Valence && placed[i].whyNot.empty() && !isLeftOut[i])
+    {
+      const Vector3& at = placed[i].path.front();
+      const auto nearest = std::min_element(requests.begin(), requests.end(),
+        [&](const ValencePlace& a, const ValencePlace& b)
+        { return (a.place - at).squaredNorm() < (b.place - at).squaredNorm(); });
+      kept.insert(static_cast<std::size_t>(nearest - requests.begin()));
+    }
+  }
+  std::vector<ValencePlace> left;
+  std::transform(
+    kept.begin(), kept.end(), std::back_inserter(left), [&](std::size_t i) { return requests[i]; });
+  requests = std::move(left);
+}
+
+void keepCurves(std::vector<PlacedConstraint>& placed, const std::vector<bool>& isLeftOut,
+  std::vector<CurveRequest>& curves)
+{
+  std::vector<bool> goes(curves.size(), false);
+  for (std::size_t i = 0; i < placed.size(); ++i)
+  {
+    if (isDrawnCurve(placed[i]) && isLeftOut[i])
+    {
+      goes.at(placed[i].curve) = true;
+    }
+  }
+  std::vector<std::size_t> now(curves.size(), 0);
+  std::vector<CurveRequest> kept;
+  for (std::size_t c = 0; c < curves.size(); ++c)
+  {
+    now[c] = kept.size();
+    if (!goes[c])
+    {
+      kept.push_back(std::move(curves[c]));
+    }
+  }
+  for (std::size_t i = 0; i < placed.size(); ++i)
+  {
+    placed[i].curve = isDrawnCurve(placed[i]) ? now[placed[i].curve] : placed[i].curve;
+  }
+  curves = std::move(kept);
+}
+
+/// The runs of one surface.
+class DrawnRun
+{
+public:
+  DrawnRun(const SurfaceInput& input, const RemeshOptions& options, const RemeshRun& run,
+    const KnownOfMoves& known, const std::vector<PlacedConstraint>& placed)
+    : input_(input), options_(options), run_(run), known_(known), placed_(placed),
+      isLeftOut_(placed.size(), false)
+  {
+    for (std::size_t i = 0; i < placed.size(); ++i)
+    {
+      if (!isDrawnMove(placed[i]) && placed[i].whyNot.empty())
+      {
+        rest_.push_back(i); // moves are left out where they are made
+      }
+    }
+  }
+
+  SymmetricResult make()
+  {
+    SymmetricResult made = runWithout(isLeftOut_);
+    const std::vector<PlacedConstraint> ofAll = made_;
+    const std::vector<std::string> noticesOfAll = notices_;
+    if (fails(made) && (rest_.empty() || fails(runWithout(withFirst(0)))))
+    {
+      made_ = ofAll; // without them it fails, too
+      notices_ = noticesOfAll;
+      return made;
+    }
+    while (fails(made))
+    {
+      const auto last = lastOfShortestFailing(rest_.size(),
+        [&](std::size_t count)
+        {
+          countTry(Try::WithoutConstraint);
+          return fails(runWithout(withFirst(count)));
+        });
+      if (wasStopped_ || !last)
+      {
+        return stopped();
+      }
+      leaveOut(*last);
+      made = runWithout(isLeftOut_);
+    }
+    countTryLed(
+      Try::WithoutConstraint, made.remeshed.status.ok() ? whyNot_.size() : std::size_t{ 0 });
+    return made;
+  }
+
+  /// Of the last run.
+  void take(std::vector<PlacedConstraint>& placed, std::vector<std::string>& notices)
+  {
+    placed = std::move(made_);
+    for (const auto& [i, why] : whyNot_)
+    {
+      placed[i].whyNot = why;
+      notices.push_back(nameOfPlaced(placed[i]) + " is left out: " + why);
+    }
+    notices.insert(notices.end(), notices_.begin(), notices_.end());
+  }
+
+private:
+  static SymmetricResult stopped()
+  {
+    SymmetricResult none;
+    none.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    return none;
+  }
+
+  bool fails(const SymmetricResult& made) const
+  {
+    const Status& status = made.remeshed.status;
+    return !status.ok() && status.code != StatusCode::Cancelled &&
+      status.code != StatusCode::TooLarge;
+  }
+
+  /// The first `count` of the rest.
+  std::vector<bool> withFirst(std::size_t count) const
+  {
+    std::vector<bool> isLeftOut = isLeftOut_;
+    for (std::size_t r = count; r < rest_.size(); ++r)
+    {
+      isLeftOut[rest_[r]] = true;
+    }
+    return isLeftOut;
+  }
+
+  SymmetricResult runWithout(const std::vector<bool>& isLeftOut)
+  {
+    if (wasStopped_)
+    {
+      return stopped();
+    }
+    made_ = placed_;
+    notices_.clear();
+    SurfaceInput input = withoutDrawn(input_, isLeftOut, made_);
+    SymmetricResult made = asksForMoves(made_)
+      ? remeshWithMoves(input, options_, run_, known_, made_, notices_)
+      : run_(std::move(input), options_);
+    wasStopped_ =
+      made.remeshed.status.code == StatusCode::Cancelled || !made.remeshed.stopped.empty();
+    return made;
+  }
+
+  /// r: in the rest.
+  void leaveOut(std::size_t r)
+  {
+    std::vector<std::string> before;
+    std::transform(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(r),
+      std::back_inserter(before), [this](std::size_t i) { return nameOfPlaced(placed_[i]); });
+    const SymmetricResult with = runWithout(withFirst(r + 1));
+    isLeftOut_[rest_[r]] = true;
+    whyNot_.emplace_back(rest_[r], cannotBeMet(before, with.remeshed.status.message));
+    rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(r));
+  }
+
+  const SurfaceInput& input_;
+  const RemeshOptions& options_;
+  const RemeshRun& run_;
+  const KnownOfMoves& known_;
+  const std::vector<PlacedConstraint>& placed_;
+  std::vector<bool> isLeftOut_;
+  std::vector<std::size_t> rest_; ///< that may be left out, and are not so far
+  std::vector<std::pair<std::size_t, std::string>> whyNot_;
+  bool wasStopped_ = false; ///< no run may follow
+  // Of the last run:
+  std::vector<PlacedConstraint> made_;
+  std::vector<std::string> notices_;
+};
+
+} // namespace
+
+std::string cannotBeMet(const std::vector<std::string>& before, const std::string& reason)
+{
+  std::string others;
+  for (const std::string& name : before)
+  {
+    others += (others.empty() ? " together with " : ", ") + name;
+  }
+  return "it cannot be met" + others + ": " + reason;
+}
+
+SurfaceInput withoutDrawn(const SurfaceInput& input, const std::vector<bool>& isLeftOut,
+  std::vector<PlacedConstraint>& placed)
+{
+  SurfaceInput result = input;
+  if (std::find(isLeftOut.begin(), isLeftOut.end(), true) == isLeftOut.end())
+  {
+    return result;
+  }
+  DrawnRequests& drawn = result.drawn;
+  keepOf(ConstraintKind::Feature, placed, isLeftOut, drawn.features);
+  keepOf(ConstraintKind::Stroke, placed, isLeftOut, drawn.strokes);
+  keepOf(ConstraintKind::Cleared, placed, isLeftOut, drawn.cleared);
+  keepOf(ConstraintKind::Size, placed, isLeftOut, drawn.sizes);
+  keepValences(placed, isLeftOut, drawn.valences);
+  keepCurves(placed, isLeftOut, result.curves);
+  return result;
+}
+
+SymmetricResult remeshWithDrawn(const SurfaceInput& input, const RemeshOptions& options,
+  const RemeshRun& run, const KnownOfMoves& known, std::vector<PlacedConstraint>& placed,
+  std::vector<std::string>& notices)
+{
+  DrawnRun drawn(input, options, run, known, placed);
+  SymmetricResult made = drawn.make();
+  drawn.take(placed, notices);
+  return made;
+}
+
+} // namespace quadrille
