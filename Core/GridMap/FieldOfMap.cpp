@@ -120,7 +120,10 @@ void FieldOfMap::addLines()
     }
     else if (line.hasLine && makesLines())
     {
-      if (const std::optional<Isoline> way = wayOf(i))
+      // A way of an earlier try may join other vertices than those that are irregular now.
+      const std::optional<Isoline> way = wayOf(i);
+      if (way && mesh_.origin[way->start] == line.outcome.from &&
+        mesh_.origin[way->end] == line.outcome.to)
       {
         line.line = *way;
         line.line.axis = axisAlong(mesh_, result_.field, line.line);

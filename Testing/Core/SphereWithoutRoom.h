@@ -6,29 +6,33 @@
 #include "MeshInput.h"
 #include "TestMeshes.h"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 
 namespace quadrille::test
 {
 
-/// A sphere with a vertex of three triangles that is to become one of seven quads: each triangle has less than two
-/// right angles, so three have room for five quads at most. The coarse level has a map, that of the surface has folds
-/// there whatever is tried.
+/// A sphere with connections that all cross each other at its pole, where quads have edges in two directions only: of
+/// some 100 quads no map has all of them, with whatever vertices.
 inline SurfaceInput sphereWithoutRoom()
 {
+  constexpr int kConnections = 5;
+  constexpr double kAngle = 0.7; // from the pole to the ends
   SurfaceInput input = test::toInput(test::sphere(3));
-  const Index middle = static_cast<Index>(input.points.size());
-  const std::array<Index, 3> t{ input.polygonPoints[0], input.polygonPoints[1],
-    input.polygonPoints[2] };
-  input.points.push_back((input.points[t[0]] + input.points[t[1]] + input.points[t[2]]) / 3);
-  input.polygonPoints.edit()[2] = middle;
-  for (const std::size_t i : { 1U, 2U })
+  for (int k = 0; k < kConnections; ++k)
   {
-    input.polygonPoints.append({ t[i], t[(i + 1) % 3], middle });
-    input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
+    CurveRequest connection;
+    for (const double side : { -1.0, 1.0 })
+    {
+      const double around = M_PI * k / kConnections;
+      const Vector3 end(side * std::sin(kAngle) * std::cos(around),
+        side * std::sin(kAngle) * std::sin(around), std::cos(kAngle));
+      connection.points.push_back(*std::min_element(input.points.begin(), input.points.end(),
+        [&](const Vector3& a, const Vector3& b)
+        { return (a - end).squaredNorm() < (b - end).squaredNorm(); }));
+    }
+    input.curves.push_back(connection);
   }
-  input.targetValences.assign(input.points.size(), 0);
-  input.targetValences[middle] = 7;
   return input;
 }
 

@@ -6,6 +6,7 @@
 #include "SphereWithoutRoom.h"
 #include "TestMeshes.h"
 
+#include "Base/Lists.h"
 #include "Extraction/Extraction.h"
 
 #include <vtkAlgorithm.h>
@@ -21,6 +22,7 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -50,19 +52,22 @@ inline vtkSmartPointer<vtkPolyData> toPolyData(const Mesh& mesh)
   return data;
 }
 
-/// With the array TargetValence.
+/// With the connections as an array.
 inline vtkSmartPointer<vtkPolyData> sphereWithoutRoomData()
 {
   const SurfaceInput input = sphereWithoutRoom();
   auto data = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  vtkNew<vtkIntArray> valences;
-  valences->SetName("TargetValence");
-  for (std::size_t p = 0; p < input.points.size(); ++p)
+  vtkNew<vtkIntArray> connections;
+  connections->SetName("ConnectId");
+  for (const Vector3& p : input.points)
   {
-    points->InsertNextPoint(input.points[p].data());
-    valences->InsertNextValue(input.targetValences[p]);
+    points->InsertNextPoint(p.data());
+    const auto ends = std::find_if(input.curves.begin(), input.curves.end(),
+      [&](const CurveRequest& curve) { return contains(curve.points, p); });
+    connections->InsertNextValue(
+      ends == input.curves.end() ? 0 : static_cast<int>(ends - input.curves.begin()) + 1);
   }
   vtkNew<vtkCellArray> polys;
   for (std::size_t i = 0; i < input.polygonPoints.size(); i += 3)
@@ -73,7 +78,7 @@ inline vtkSmartPointer<vtkPolyData> sphereWithoutRoomData()
   }
   data->SetPoints(points);
   data->SetPolys(polys);
-  data->GetPointData()->AddArray(valences);
+  data->GetPointData()->AddArray(connections);
   return data;
 }
 

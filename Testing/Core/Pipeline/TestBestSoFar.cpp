@@ -56,7 +56,7 @@ TEST(BestSoFar, AStopKeepsTheQuadsOfTheAttemptsBefore)
   RemeshOptions options = optionsOf(100);
   const RemeshResult whole = remesh(input, options);
   ASSERT_TRUE(whole.status.ok()) << whole.status.message;
-  ASSERT_GE(whole.attempts.size(), 3U); // else there is nothing to stop
+  ASSERT_GE(whole.attempts.size(), 2U); // else there is nothing to stop
   EXPECT_TRUE(whole.stopped.empty());
   for (std::size_t attempt = 2; attempt <= whole.attempts.size(); ++attempt)
   {
@@ -82,7 +82,7 @@ TEST(BestSoFar, AStopKeepsTheQuadsOfTheAttemptsBefore)
 TEST(BestSoFar, IsNotTakenForTheFinalResult)
 {
   const SurfaceInput input = sphereWithoutRoom();
-  const RemeshOptions options = optionsOf(300);
+  const RemeshOptions options = optionsOf(100);
   const RemeshResult fresh = remesh(input, options);
   for (const bool quadsAlone : { false, true })
   {
@@ -104,15 +104,11 @@ TEST(BestSoFar, IsNotTakenForTheFinalResult)
 
 TEST(BestSoFar, OfASymmetricRunIsSymmetric)
 {
-  SurfaceInput input = sphereWithoutRoom();
-  const Vector3 middle = input.points.back();
   SymmetryOptions symmetry;
-  // The vertex lies in front of it.
-  symmetry.plane = MirrorPlane{ Vector3::Zero(), Vector3(middle.x() > 0 ? 1 : -1, 0, 0) };
-  ASSERT_GT(std::abs(middle.x()), 0.1);
-  RemeshOptions options = optionsOf(200);
+  symmetry.plane = MirrorPlane{ Vector3::Zero(), Vector3(0, 0, 1) }; // the pole lies in front of it
+  RemeshOptions options = optionsOf(100);
   options.progress = stopAt("Attempt 2");
-  const SymmetricResult made = remeshSymmetric(input, options, symmetry);
+  const SymmetricResult made = remeshSymmetric(sphereWithoutRoom(), options, symmetry);
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   ASSERT_FALSE(made.remeshed.stopped.empty()); // else the case is none any more
   EXPECT_EQ(made.mirrorPoint.size(), made.remeshed.quads.points.size());

@@ -114,6 +114,34 @@ TEST(Curves, AConnectionIsAStraightChainOfEdges)
   EXPECT_GE(met, pairs.size() - 1);
 }
 
+/// Where many curves cross, one try may make other vertices irregular than the one before, whose straight ways it has.
+TEST(Curves, ManyThatCrossAtOnePlaceHaveQuads)
+{
+  SurfaceInput input = toInput(sphere(3));
+  for (int k = 0; k < 6; ++k)
+  {
+    const double around = M_PI * k / 6;
+    CurveRequest curve;
+    for (int i = -4; i <= 4; ++i)
+    {
+      const Vector3 beside(std::cos(around), std::sin(around), 0);
+      curve.points.push_back((Vector3(0, 0, 1) + 0.15 * i * beside).normalized());
+    }
+    input.curves.push_back(curve);
+  }
+  RemeshOptions options;
+  options.quads = 100;
+  const RemeshResult result = remesh(input, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  ASSERT_EQ(result.curves.size(), 6U);
+  EXPECT_TRUE(std::any_of(result.curves.begin(), result.curves.end(),
+    [](const CurveOutcome& curve) { return curve.met; }));
+  for (const CurveOutcome& curve : result.curves)
+  {
+    EXPECT_EQ(curve.met, curve.why.empty()) << curve.why;
+  }
+}
+
 TEST(Curves, MethodsThatRoundSayThatTheyMakeNone)
 {
   RemeshOptions options = curveOptions(800);

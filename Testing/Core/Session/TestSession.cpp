@@ -579,11 +579,11 @@ TEST(Session, AStopLeavesNoResult)
 
 TEST(Session, AStopKeepsTheQuadsSoFarUntilTheNextUpdate)
 {
-  Session fresh(test::sphereWithoutRoom(), sessionOptions(300));
+  Session fresh(test::sphereWithoutRoom(), sessionOptions(100));
   ASSERT_TRUE(fresh.update().status.ok());
   ASSERT_TRUE(fresh.update().stopped.empty());
 
-  Session session(test::sphereWithoutRoom(), sessionOptions(300));
+  Session session(test::sphereWithoutRoom(), sessionOptions(100));
   bool isOver = false;
   session.setProgress(
     [&](double, const std::string& text)
@@ -595,10 +595,10 @@ TEST(Session, AStopKeepsTheQuadsSoFarUntilTheNextUpdate)
   ASSERT_TRUE(report.status.ok()) << report.status.message;
   EXPECT_EQ(report.stopped.rfind("Attempt 2", 0), 0U) << report.stopped;
   ASSERT_TRUE(session.result());
-  EXPECT_GT(session.result()->quads.quads.size(), 200U);
+  EXPECT_GT(session.result()->quads.quads.size(), 70U);
   // A change of the state has none.
   RemeshOptions other = session.settings();
-  other.quads = 350;
+  other.quads = 150;
   session.setSettings(other);
   EXPECT_FALSE(session.result());
   ASSERT_TRUE(session.undo());
