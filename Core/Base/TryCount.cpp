@@ -12,7 +12,7 @@ thread_local TryScope* innermostTries = nullptr;
 constexpr std::array<TryRow, kTries> kTryRows{ {
   { "pipeline", "more freedom",
     "intermediate vertices near failures are kept, or both levels get twice the budget",
-    "1 a round" },
+    "2 a round" },
   { "pipeline", "room for curves", "vertices round places without room for curves are kept",
     "1 a round" },
   { "pipeline", "more quads", "as many quads as go three times round the shortest loop", "1" },

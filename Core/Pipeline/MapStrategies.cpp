@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/FaceDivision.h"
 #include "Pipeline/Strategies.h"
 
 #include "Base/Lists.h"
@@ -13,7 +14,7 @@ namespace quadrille
 namespace
 {
 
-/// A map that fails at more vertices has a cause that more freedom does not take away.
+/// Faces are filled at once where a map fails at more vertices: that has a cause that more freedom does not take away.
 constexpr std::size_t kFewFailed = 10;
 /// Rings of intermediate vertices that are kept round a vertex that the map failed at.
 constexpr int kFreedomRings = 2;
@@ -67,14 +68,20 @@ std::vector<Index> ringsRound(
 
 std::optional<Plan> moreFreedom(const AttemptFailure& failure)
 {
+  RunContext& run = failure.run;
   const Attempt& last = failure.history.last();
   const std::vector<Index>& failedAt = last.map->failedAt;
-  if (last.map->status.ok() || last.map->hopeless || failedAt.size() > kFewFailed ||
-    failure.history.inRound("more freedom") == failure.bound)
+  const std::size_t times = failure.history.inRound("more freedom");
+  if (last.map->status.ok() || last.map->hopeless || times == failure.bound)
   {
     return std::nullopt;
   }
-  RunContext& run = failure.run;
+  const bool hasFaces = keepsFeatures(*failure.surface) &&
+    isCutAtFaces(*run.surface.surface, run.options, failure.history);
+  if (hasFaces && (times > 0 || failedAt.size() > kFewFailed))
+  {
+    return std::nullopt;
+  }
   const Hierarchy& levels = run.levels.make(failure.surface, levelOptions(run, last.plan));
   const Index coarse = levels.coarse.mesh.vertexCount();
   Plan plan = last.plan;

@@ -21,7 +21,7 @@ struct Strategy
 
 /// The strategies in the order in which they are asked.
 constexpr std::array<Strategy, 2> kForMaps{ {
-  { Try::MoreFreedom, 1, moreFreedom },
+  { Try::MoreFreedom, 2, moreFreedom },
   { Try::RoomForCurves, 1, roomForCurves },
 } };
 constexpr std::array<Strategy, 2> kForRounds{ {

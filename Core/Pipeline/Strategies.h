@@ -31,9 +31,9 @@ struct AttemptFailure
 
 // For another map of the same round.
 
-/// Where the coarse map fails at a few vertices: keeps the intermediate vertices near them, and raises the budget by
+/// Where the coarse map fails: keeps the intermediate vertices near those that it failed at, and raises the budget by
 /// their number, at least by a quarter. Where the coarse level has all of the intermediate one already, both get about
-/// twice as many. Bound: times in a round.
+/// twice as many. Where faces can be filled instead, once, and for a few vertices. Bound: times in a round.
 std::optional<Plan> moreFreedom(const AttemptFailure& failure);
 
 /// Where a map was made by leaving curves out, vertices round the places where it could not be made with them are kept

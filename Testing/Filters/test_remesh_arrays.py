@@ -11,7 +11,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     VTK_HEXAHEDRON, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkUnstructuredGrid)
-from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkFiltersModeling import vtkLinearSubdivisionFilter
+from vtkmodules.vtkFiltersSources import vtkPlatonicSolidSource, vtkSphereSource
 from vtkmodules.vtkIOGeometry import vtkSTLReader, vtkSTLWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 
@@ -63,33 +64,37 @@ def hexahedra():
     return grid
 
 
-def sphere_without_room():
-    """Points, faces and target valences of a sphere with a vertex of three triangles that is to have seven quads, which
-    no attempt has room for."""
-    source = vtkSphereSource()
-    source.SetThetaResolution(24)
-    source.SetPhiResolution(24)
-    source.Update()
-    points, faces = quadrille.to_arrays(source.GetOutput())
-    face = faces[len(faces) // 2]
-    middle = len(points)
-    points = numpy.concatenate((points, points[face].mean(axis=0, keepdims=True)))
-    star = [[face[i], face[(i + 1) % 3], middle] for i in range(3)]
-    faces = numpy.concatenate((numpy.delete(faces, len(faces) // 2, axis=0), star))
-    return points, faces, {middle: 7}
+def sphere_without_room(count=8, angle=0.85):
+    """Points and faces of a sphere, and connections that all cross each other at its pole, where quads have edges in
+    two directions only: of some 80 quads no map has all of them. angle: from the pole to their ends."""
+    source = vtkPlatonicSolidSource()
+    source.SetSolidTypeToIcosahedron()
+    finer = vtkLinearSubdivisionFilter()
+    finer.SetNumberOfSubdivisions(3)
+    finer.SetInputConnection(source.GetOutputPort())
+    finer.Update()
+    points, faces = quadrille.to_arrays(finer.GetOutput())
+    points = points / numpy.linalg.norm(points, axis=1, keepdims=True)
+
+    def end(side, around):
+        beside = side * math.sin(angle)
+        place = [beside * math.cos(around), beside * math.sin(around), math.cos(angle)]
+        return points[numpy.argmin(((points - place) ** 2).sum(axis=1))]
+
+    return points, faces, [[end(side, math.pi * k / count) for side in (-1, 1)] for k in range(count)]
 
 
 class Stops(unittest.TestCase):
     def test_a_stop_keeps_the_quads_so_far(self):
-        points, faces, valences = sphere_without_room()
+        points, faces, connections = sphere_without_room()
 
         def until_second(fraction, text):
             return not text.startswith("Attempt 2 of at most ")
 
-        quads = quadrille.remesh((points, faces), quads=300, target_valence=valences, progress=until_second)
-        self.assertGreater(quads.GetNumberOfPolys(), 200)
+        quads = quadrille.remesh((points, faces), quads=80, connections=connections, progress=until_second)
+        self.assertGreater(len(quadrille.to_arrays(quads)[1]), 50)
         self.assertTrue(quadrille.info(quads)["Stopped"].startswith("Attempt 2 of at most "))
-        whole = quadrille.remesh((points, faces), quads=300, target_valence=valences)
+        whole = quadrille.remesh((points, faces), quads=80, connections=connections)
         self.assertNotIn("Stopped", quadrille.info(whole))
 
     def test_a_stop_before_there_are_any_is_an_error(self):

@@ -10,6 +10,8 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersModeling import vtkLinearSubdivisionFilter
+from vtkmodules.vtkFiltersSources import vtkPlatonicSolidSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 CONTROLLER = vtkMultiProcessController.GetGlobalController()
@@ -34,6 +36,18 @@ def arrays_of(data):
     """Points and triangles of a vtkPolyData of triangles."""
     return (vtk_to_numpy(data.GetPoints().GetData()).astype(float),
             vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3))
+
+
+def icosphere(times=3):
+    """Triangles of a sphere of radius 1: those of an icosahedron, cut into four so many times."""
+    source = vtkPlatonicSolidSource()
+    source.SetSolidTypeToIcosahedron()
+    finer = vtkLinearSubdivisionFilter()
+    finer.SetNumberOfSubdivisions(times)
+    finer.SetInputConnection(source.GetOutputPort())
+    finer.Update()
+    points, triangles = arrays_of(finer.GetOutput())
+    return points / np.linalg.norm(points, axis=1, keepdims=True), triangles
 
 
 def sphere(rows=24):

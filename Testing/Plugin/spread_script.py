@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 """Run by every rank, see test_spread.py: spread_script.py CASE..."""
+import itertools
 import os
 import sys
 import time
@@ -11,8 +12,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkCommand
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from spread_common import (CONTROLLER, RANK, RANKS, Joined, add, arrays_of, box, euler, gather, piece, plane,
-                           random_blobs, random_faces, sphere, stripes, sum_of_piece, surface, torus)
+from spread_common import (CONTROLLER, RANK, RANKS, Joined, add, arrays_of, box, euler, gather, icosphere, piece,
+                           plane, random_blobs, random_faces, sphere, stripes, sum_of_piece, surface, torus)
 
 ALWAYS, NEVER = 1, 2
 SUCCEEDED, BAD_INPUT, NO_RESULT, ABORTED, TIMED_OUT = 1, 2, 3, 4, 5
@@ -427,20 +428,29 @@ def waits():
     check(stop is None or stop.is_done, "the rank that waits was not asked")
 
 
+def crossing_connections(count, quads, angle=0.85):
+    """The filter for a sphere with connections that all cross each other at a pole; angle: from there to their ends."""
+    points, triangles = icosphere()
+    ids = np.zeros(len(points), np.int32)
+    for k in range(count):
+        around = np.pi * k / count
+        for beside in (-np.sin(angle), np.sin(angle)):
+            end = (beside * np.cos(around), beside * np.sin(around), np.cos(angle))
+            ids[np.argmin(((points - end) ** 2).sum(1))] = k + 1
+    data, used, faces = stripe(points, triangles)
+    add(data.GetPointData(), "ConnectId", ids[used])
+    return remesher(data, quads)
+
+
 def so_far():
     """A stop after the first quads keeps them, on all ranks."""
-    points, triangles = sphere(16)
-    # A vertex of three triangles that is to become one of seven quads, for which it has no room.
-    middle = len(points)
-    points = np.vstack([points, points[triangles[100]].mean(0)])
-    a, b, c = triangles[100]
-    triangles[100] = (a, b, middle)
-    triangles = np.vstack([triangles, [(b, c, middle), (c, a, middle)]])
-    data, used, faces = stripe(points, triangles)
-    add(data.GetPointData(), "TargetValence", np.where(used == middle, 7, 0).astype(np.int32))
-    remesh = remesher(data, 300)
-    stop = Stop(remesh, 0, text="Attempt 2 of at most ") if RANK == 0 else None
-    quads = run(remesh)
+    # No map has all of many connections, which a second attempt finds out, if the first has not.
+    for count, number in itertools.product((5, 6, 8, 12), (60, 80, 100, 120)):
+        remesh = crossing_connections(count, number)
+        stop = Stop(remesh, 0, text="Attempt 2 of at most ") if RANK == 0 else None
+        quads = run(remesh)
+        if remesh.GetOutcome() == ABORTED:
+            break
     check(remesh.GetOutcome() == ABORTED and remesh.GetIsSoFar(), f"quads so far: {remesh.GetOutcomeText()}")
     check(stop is None or stop.is_done, "there was no second attempt")
     same_on_all(remesh.GetOutcomeText(), "quads so far")
