@@ -41,8 +41,8 @@ struct Plan
   std::vector<Try> made; ///< all that has made it of the first one and still shows, in order
   std::string why;       ///< what was wrong with the attempt before, for the progress text
 
-  LevelPlan
-    levels; ///< of the next round, too, which need not find out again what the coarse map needs
+  /// Those of the next round, too, which need not find out again what the coarse map needs.
+  LevelPlan levels;
 
   // Of the surface, see withPlan.
   std::shared_ptr<const std::vector<float>> sizes;           ///< #V; null: those of the surface

@@ -29,8 +29,6 @@ public:
   {
     return determinant(uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2]) > 0;
   }
-  /// Quarter turns round the vertex of a corner, by walking its fan.
-  int turnsRound(Index corner) const;
 
   /// Faces to mend around: those that are not positive and those at a vertex of wrong turns.
   std::vector<Index> find(int threads) const;
@@ -38,6 +36,8 @@ public:
   std::vector<Index> findAmong(std::vector<Index> faces, const std::vector<Index>& changed) const;
 
 private:
+  /// Quarter turns round the vertex of a corner, by walking its fan.
+  int turnsRound(Index corner) const;
   /// Quadrants entered in the corners of a face; a degenerate one counts like an inverted one.
   std::array<std::int8_t, 3> enteredBy(Index f) const;
   std::vector<int> countTurns(int threads) const;
