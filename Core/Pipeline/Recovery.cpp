@@ -54,8 +54,7 @@ std::string whyNotGood(const Attempt& attempt)
   {
     return std::to_string(attempt.quads->invertedQuads) + " quads inverted";
   }
-  return map.defects() > 0 ? std::to_string(map.defects()) + " defects of the map"
-                           : "curves that are not met";
+  return "curves that are not met";
 }
 
 template <typename Strategies>
