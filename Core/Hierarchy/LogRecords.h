@@ -13,6 +13,7 @@
 /// dies). A vertex of a constrained curve has i2 = i0 and w2 = 0.
 #pragma once
 
+#include "Base/RingKernel.h"
 #include "Base/Types.h"
 
 #include <array>
@@ -21,10 +22,6 @@
 
 namespace quadrille
 {
-
-/// Vertices with more ring vertices than this are never removed (their valence falls as their
-/// neighbours go).
-constexpr int kMaximumRing = 40;
 
 enum class CollapseKind : std::uint8_t
 {

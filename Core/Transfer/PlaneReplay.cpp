@@ -3,7 +3,7 @@
 #include "Transfer/PlaneReplay.h"
 
 #include "Base/FixedPoint.h"
-#include "Transfer/RingKernel.h"
+#include "Base/RingKernel.h"
 
 #include <algorithm>
 #include <cmath>

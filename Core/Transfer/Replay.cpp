@@ -5,9 +5,9 @@
 #include "Base/ChartRotation.h"
 #include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/RingKernel.h"
 #include "Hierarchy/LogRecords.h"
 #include "Mesh/Mesh.h"
-#include "Transfer/RingKernel.h"
 #include "Transfer/StarReplay.h"
 
 #include <algorithm>

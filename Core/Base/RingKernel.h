@@ -10,6 +10,10 @@
 namespace quadrille
 {
 
+/// Corners that a ring may have. Vertices with more are never removed in decimation; their valence falls as their
+/// neighbours go.
+constexpr int kMaximumRing = 40;
+
 /// Whether all triangles (p, ring[i], ring[i+1]) are counterclockwise; the last one (p, ring[n-1], ring[0]) only
 /// for a closed ring, which then must wind round p once: next to a cone of valence 5 a ring can wind twice. Exact.
 bool starIsPositive(const FixedVec2* ring, int count, bool closed, FixedVec2 p);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Transfer/RingKernel.h"
+#include "Base/RingKernel.h"
 
 #include <gtest/gtest.h>
 

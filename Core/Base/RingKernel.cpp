@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Transfer/RingKernel.h"
-
-#include "Hierarchy/LogRecords.h"
+#include "Base/RingKernel.h"
 
 #include <algorithm>
 #include <array>
