@@ -199,8 +199,8 @@ private:
     {
       std::printf(",%.4f", seconds);
     }
-    std::printf(",%d,%d,%zu,%zu,%zu,%zu\n", map.seamlessSteps, map.embedSteps, map.reuse.faces,
-      map.reuse.seamless, map.reuse.integers, map.reuse.embedded);
+    std::printf(",%d,%d,%zu,%zu,%zu\n", map.seamlessSteps, map.embedSteps, map.reuse.faces,
+      map.reuse.seamless, map.reuse.integers);
   }
 
   std::string path_;
@@ -212,8 +212,7 @@ private:
 void printCoarseHeader()
 {
   std::printf("mesh,quads,vertices,faces,edit,start,clock,ok,field,seamless,quantize,embed,total,"
-              "seamless_steps,embed_steps,faces_reused,seamless_reused,integers_reused,"
-              "embedded_reused\n");
+              "seamless_steps,embed_steps,faces_reused,seamless_reused,integers_reused\n");
 }
 
 void printCoarse(const std::string& path, const CoarseTiming& request)

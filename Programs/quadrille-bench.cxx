@@ -64,7 +64,7 @@ refined faces.
 constexpr const char* kCoarse =
   R"(With --compare coarse makes the coarse level of each mesh, then its field and map on one thread, and writes
   mesh,quads,vertices,faces,edit,start,clock,ok,field,seamless,quantize,embed,total,seamless_steps,embed_steps,
-  faces_reused,seamless_reused,integers_reused,embedded_reused
+  faces_reused,seamless_reused,integers_reused
 with medians in seconds of the clock on the wall and of the processor, Newton steps, and what was taken over from the
 map before. Edits: none; direction, a stroke over some faces turned by 20 degrees; valence, one vertex that is to have
 five edges; level, the vertices of the intermediate level round it kept. Those are made cold and starting warm from the

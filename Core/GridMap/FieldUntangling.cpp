@@ -93,7 +93,7 @@ UntangleResult untangleOrTell(const Mesh& mesh, const CrossField& field,
 } // namespace
 
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
-  const UntangleProblem& problem, const Eigen::VectorXd& start, int rounds, Try moreWeight,
+  const UntangleProblem& problem, const Eigen::VectorXd& start, int rounds,
   const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
   const ProgressCallback& progress, int maximumSteps)
 {
@@ -115,7 +115,7 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
     }
     if (i > 0)
     {
-      countTry(moreWeight);
+      countTry(Try::MoreWeight);
       stiffen(mesh, best.defects, stiffened.weight);
     }
     UntangleResult attempt = untangleOrTell(
@@ -143,7 +143,7 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
       break;
     }
   }
-  countTryLed(moreWeight, kept > 0 ? 1 : 0);
+  countTryLed(Try::MoreWeight, kept > 0 ? 1 : 0);
   return best;
 }
 

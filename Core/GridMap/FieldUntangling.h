@@ -37,10 +37,9 @@ struct FieldUntangling
 /// may end with a wrong one: then the references are fitted again with more weight round it [stiffening of
 /// Bommes et al. 2009], at most `rounds` times, until it winds rightly from the start. snap rounds
 /// unknowns to a map. The first triangles of the problem are the faces. maximumSteps: of Newton, of all attempts; 0 for
-/// no bound but that of each. The rounds count themselves as moreWeight. Throws SpentInFaces where a bound of work is
-/// reached.
+/// no bound but that of each. Throws SpentInFaces where a bound of work is reached.
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
-  const UntangleProblem& problem, const Eigen::VectorXd& start, int rounds, Try moreWeight,
+  const UntangleProblem& problem, const Eigen::VectorXd& start, int rounds,
   const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
   const ProgressCallback& progress, int maximumSteps = 0);
 

@@ -80,9 +80,8 @@ struct MapReuse
   std::size_t faces = 0;    ///< that were the same before
   std::size_t seamless = 0; ///< components whose seamless map started from the earlier one
   std::size_t integers = 0; ///< components whose integers started from the earlier ones
-  std::size_t embedded = 0; ///< components that were embedded starting from the earlier map
 
-  bool any() const { return seamless + integers + embedded > 0; }
+  bool any() const { return seamless + integers > 0; }
 };
 /// What making maps has taken.
 struct MapWork

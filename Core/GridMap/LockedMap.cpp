@@ -24,10 +24,9 @@ Transition fieldTransition(
 
 } // namespace
 
-LockedMap::LockedMap(
-  const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv, bool whole)
-  : mesh_(mesh), field_(field), uv_(uv), whole_(whole), place_(mesh.origin.size()),
-    master_(mesh.vertexCount()), lockedU_(mesh.vertexCount(), 0), lockedV_(mesh.vertexCount(), 0)
+LockedMap::LockedMap(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv)
+  : mesh_(mesh), field_(field), uv_(uv), place_(mesh.origin.size()), master_(mesh.vertexCount()),
+    lockedU_(mesh.vertexCount(), 0), lockedV_(mesh.vertexCount(), 0)
 {
   refuseIf(uv.size() != mesh.origin.size() || field.matching.size() != mesh.origin.size() ||
       field.alignment.size() != mesh.origin.size() || field.turns.size() != mesh.position.size(),
@@ -59,7 +58,7 @@ void LockedMap::checkTransitions() const
     refuseIf(transition.apply(uv_[Mesh::next(h)]) != uv_[mesh_.twin[h]],
       "embedding: the two images of half-edge ", h,
       " do not agree under the quarter turns of the field");
-    if (whole_ && !isInteger(transition.translation))
+    if (!isInteger(transition.translation))
     {
       refuse("embedding: the transition of half-edge " + std::to_string(h) + " is not whole");
     }
@@ -76,7 +75,7 @@ void LockedMap::checkIsolines() const
     }
     const FixedVec2 a = rotate(uv_[h], -field_.alignment[h]);
     const FixedVec2 b = rotate(uv_[Mesh::next(h)], -field_.alignment[h]);
-    refuseIf(a.v != b.v || (whole_ && !isInteger(a.v)), "embedding: constrained half-edge ", h,
+    refuseIf(a.v != b.v || !isInteger(a.v), "embedding: constrained half-edge ", h,
       " does not lie on an integer isoline");
   }
 }
@@ -86,8 +85,8 @@ void LockedMap::lockIntegers()
   lockedU_ = lockedV_ = integerVertices(mesh_, field_);
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
-    refuseIf(whole_ && lockedU_[mesh_.origin[h]] && !isInteger(uv_[h]), "embedding: vertex ",
-      mesh_.origin[h], " does not lie at a whole point");
+    refuseIf(lockedU_[mesh_.origin[h]] && !isInteger(uv_[h]), "embedding: vertex ", mesh_.origin[h],
+      " does not lie at a whole point");
   }
 }
 

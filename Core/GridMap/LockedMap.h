@@ -22,9 +22,7 @@ class LockedMap
 public:
   /// Throws InvalidInput, naming the element, when transitions are not whole or not those of the field,
   /// when constrained edges do not lie on integer isolines, or integer vertices not at whole points.
-  /// whole = false admits a seamless map, whose translations, isolines and integer vertices lie anywhere.
-  LockedMap(
-    const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv, bool whole = true);
+  LockedMap(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv);
 
   /// Points of the problem are corners; references are in units of edgeLength.
   UntangleProblem problem(double edgeLength) const;
@@ -50,7 +48,6 @@ private:
   const Mesh& mesh_;
   const CrossField& field_;
   const std::vector<FixedVec2>& uv_;
-  bool whole_;
   std::vector<Transition> place_; ///< #H: image of the corner from the master image of its vertex
   std::vector<FixedVec2> master_; ///< #V: the given map at the master corner
   std::vector<std::uint8_t> lockedU_, lockedV_; ///< #V, in the chart of the master corner

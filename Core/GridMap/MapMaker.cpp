@@ -34,8 +34,8 @@ namespace
 {
 
 constexpr int kMaximumScalings = 4;
-/// How often other integers are tried where embedding fails.
-constexpr std::size_t kMaximumEmbeddings = 4;
+/// How many integers are tried where embedding fails; three were enough on most parts.
+constexpr int kMostEmbeddings = 6;
 /// The number of quads is accepted when it is this close to the target (relative).
 constexpr double kCountTolerance = 0.06;
 /// However many blocks there are, the other components have this part of the quads that they would have alone.
@@ -80,7 +80,7 @@ struct Component
   std::vector<FixedVec2> startUv;               ///< the seamless map that uv was quantized from
   std::vector<FixedVec2> uv;
   double triedRefinement = 1, refinement = 1;
-  bool seamlessReused = false, integersReused = false, embedReused = false;
+  bool seamlessReused = false, integersReused = false;
   Status status;
   std::vector<Index> failedAt; ///< vertices of the part
   FailedFaces failedFaces;     ///< of the part
@@ -468,11 +468,23 @@ private:
       }
       return false;
     }
+    component.integersReused =
+      component.hasIntegers ? component.integersReused : quantized.startedFromPrevious;
     component.hasIntegers = true;
-    component.integersReused = quantized.startedFromPrevious;
     component.integerUv = std::move(quantized.uv);
     component.triedRefinement = quantized.refinement;
     return true;
+  }
+
+  /// Valid integers are never thrown away, since others can be made of them strip by strip: those of the scale before,
+  /// of the embedding that failed, at first those of the last run.
+  static const std::vector<FixedVec2>* knownIntegers(const Component& component)
+  {
+    if (component.hasIntegers)
+    {
+      return &component.uv;
+    }
+    return component.previous.isMap ? &component.previous.uv : nullptr;
   }
 
   QuantizeResult quantize(const Component& component, const std::vector<FixedVec2>& seamlessUv,
@@ -482,11 +494,8 @@ private:
     QuantizeOptions quantizeOptions;
     quantizeOptions.watched = watched;
     quantizeOptions.pull = options_.pull;
-    // Other integers are asked for where some vertices are watched, or where those of the first scale were too many or
-    // too few.
-    const bool again = component.hasIntegers || !watched.empty();
-    quantizeOptions.previousUv =
-      !again && component.previous.isMap ? &component.previous.uv : nullptr;
+    quantizeOptions.previousUv = knownIntegers(component);
+    quantizeOptions.anew = !component.hasIntegers;
     quantizeOptions.progress = progress;
     return quantizeMap(component.part.mesh, component.part.field, seamlessUv, quantizeOptions);
   }
@@ -502,58 +511,65 @@ private:
     }
   }
 
-  /// Where embedding fails, other integers leave room round the places of the failure; integers that were tried before
-  /// would fail again. Where another component has no map, all that counts is where this one would fail, too: one try
-  /// tells.
+  /// False, and nothing is changed, where there are no others with more watched. failed: where the present ones fail.
+  bool changeIntegers(Component& component, const std::vector<Index>& more,
+    const FailedFaces& failed, std::vector<Index>& watched, const ProgressCallback& progress)
+  {
+    countTry(Try::OtherIntegers);
+    std::vector<Index> all = join(watched, more);
+    QuantizeResult quantized = madeOrTold(component.part, failed,
+      [&] { return quantize(component, component.startUv, all, progress); });
+    if (!quantized.status.ok() || quantized.uv == component.uv)
+    {
+      return false;
+    }
+    watched = std::move(all);
+    component.refinement = quantized.refinement;
+    component.integersReused = false;
+    component.uv = std::move(quantized.uv);
+    return true;
+  }
+
+  /// Where no map with these integers is positive, others leave room round the places of the failure, and for the
+  /// vertices that found no star to return to. Where another component has no map, all that counts is where this one
+  /// would fail, too: one try tells.
   void embedOne(Component& component, const ProgressCallback& progress)
   {
     const MeshPart& part = component.part;
     std::vector<Index> watched;
-    std::vector<std::vector<FixedVec2>> tried;
-    EmbedResult embedded;
-    while (true)
+    for (int tried = 1;; ++tried)
     {
+      const std::vector<Index> homeless =
+        cornerVertices(part.mesh, findNotPositive(part.mesh, component.uv));
       EmbedOptions embedOptions;
       embedOptions.edgeLength = options_.edgeLength;
-      embedOptions.seamlessUv = failures() == 0 ? &component.startUv : nullptr;
-      embedOptions.previous = component.earlier();
       embedOptions.anisotropyLimit = options_.anisotropyLimit;
-      embedOptions.failedBefore = embedded.failedAt;
       embedOptions.progress = progress;
+      EmbedResult embedded;
       {
         const TimedScope timed(result_.secondsEmbed, result_.processorEmbed);
-        embedded = madeOrTold(part, embedded.failedFaces,
-          [&] { return embedMap(part.mesh, part.field, component.uv, embedOptions); });
+        embedded = madeOrTold(
+          part, {}, [&] { return embedMap(part.mesh, part.field, component.uv, embedOptions); });
         result_.embedSteps += embedded.newtonSteps;
       }
-      component.embedReused = embedded.startedFromPrevious;
-      tried.push_back(std::move(component.uv));
       if (embedded.status.ok())
       {
-        countTryLed(Try::OtherIntegers, tried.size() > 1 ? 1 : 0);
+        countTryLed(Try::OtherIntegers, watched.empty() ? 0 : 1);
         component.uv = std::move(embedded.uv);
         return;
       }
-      if (failures() > 0 || tried.size() >= kMaximumEmbeddings)
+      if (failures() > 0 || tried == kMostEmbeddings ||
+        (!changeIntegers(
+           component, join(homeless, embedded.failedAt), embedded.failedFaces, watched, progress) &&
+          !changeIntegers(component, embedded.failedAt, embedded.failedFaces, watched, progress)))
       {
-        break;
+        component.isTriedOnce = failures() > 0;
+        component.fail(embedded.status, std::move(embedded.uv),
+          join(cornerVertices(part.mesh, embedded.inverted), embedded.failedAt),
+          std::move(embedded.failedFaces));
+        return;
       }
-      countTry(Try::OtherIntegers);
-      watched = join(std::move(watched), embedded.failedAt);
-      QuantizeResult quantized = madeOrTold(part, embedded.failedFaces,
-        [&] { return quantize(component, component.startUv, watched, progress); });
-      if (!quantized.status.ok() || contains(tried, quantized.uv))
-      {
-        break;
-      }
-      component.refinement = quantized.refinement;
-      component.integersReused = false;
-      component.uv = std::move(quantized.uv);
     }
-    component.isTriedOnce = failures() > 0;
-    component.fail(embedded.status, std::move(embedded.uv),
-      join(cornerVertices(part.mesh, embedded.inverted), embedded.failedAt),
-      std::move(embedded.failedFaces));
   }
 
   /// The maps of the components become one.
@@ -579,7 +595,6 @@ private:
       }
       result_.reuse.seamless += component.seamlessReused ? 1 : 0;
       result_.reuse.integers += component.integersReused ? 1 : 0;
-      result_.reuse.embedded += component.embedReused ? 1 : 0;
       for (const Index v : component.failedAt)
       {
         result_.failedAt.push_back(component.part.vertex[v]);

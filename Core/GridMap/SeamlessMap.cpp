@@ -170,7 +170,7 @@ SeamlessResult computeSeamlessMap(
   const auto snap = [&](const Eigen::VectorXd& y)
   { return snapScaled(space, y, options.targetQuads); };
   FieldUntangling untangled = untangleAlongField(mesh, field, space.problem(), start,
-    kSeamlessRounds, Try::MoreWeightSeamless, snap, options.progress, options.maximumSteps);
+    kSeamlessRounds, snap, options.progress, options.maximumSteps);
   followRequests(
     mesh, field, space.problem(), options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);

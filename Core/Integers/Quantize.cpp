@@ -159,7 +159,7 @@ IntegerStart startFrom(const std::vector<FixedVec2>& uv, const Mesh& mesh, const
 {
   UvMesh followed = UvMesh::from(mesh, field, uv);
   UvEditor(followed).repeat(done.records());
-  return integers.adopt(followed.uv) ? repairIntegers(integers) : IntegerStart{};
+  return integers.adopt(followed.uv) ? repairValidIntegers(integers) : IntegerStart{};
 }
 
 std::vector<FixedVec2> developedVectors(const UvMesh& map, const CrossField& field)
@@ -308,7 +308,7 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
       countTryLed(Try::EarlierIntegers);
     }
   }
-  if (!start.valid)
+  if (!start.valid && options.anew)
   {
     try
     {
@@ -322,8 +322,9 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   if (!start.valid)
   {
     result.status = { StatusCode::NotConverged,
-      "quantization: no valid integers up to scale " +
-        std::to_string(std::min(start.scale, kMaximumScale)) };
+      options.anew ? "quantization: no valid integers up to scale " +
+          std::to_string(std::min(start.scale, kMaximumScale))
+                   : "quantization: the earlier integers lead to none" };
     result.failedFaces = brokenFaces(integers);
     return result;
   }
@@ -331,9 +332,9 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   improveIntegers(integers, options.progress);
   result.refinement = std::max(1.0, std::sqrt(integers.area() / wantedArea));
   integrate(integers, locked.integer, uvMesh);
-  editor.undoTo(decimated);
+  editor.undoTo(decimated, locked.keep);
   seams.takeApart();
-  editor.undoAll();
+  editor.undoTo(0, locked.keep);
   joinCharts(uvMesh);
   result.uv = uvMesh.uv;
   if (result.refinement > options.maximumRefinement)

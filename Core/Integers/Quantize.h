@@ -21,9 +21,11 @@ struct QuantizeOptions
   double pull = 1;
   /// Vertices, as EmbedResult::failedAt, whose triangles the integers must leave positive as they are.
   std::vector<Index> watched;
-  /// #H: an integer-grid map along the same field, or null. Its integers are the start where they are valid, and are
-  /// only improved then.
+  /// #H: an integer-grid map along the same field, or null. Its integers are the start where they are valid, or can be
+  /// repaired, and are only improved then.
   const std::vector<FixedVec2>* previousUv = nullptr;
+  /// Whether integers are found anew where those of previousUv lead to none.
+  bool anew = true;
   ProgressCallback progress;
 };
 struct QuantizeResult

@@ -23,9 +23,13 @@ namespace
 constexpr double kLeastEnergyGain = 1e-7;
 /// Sweeps over all half-edges with one length of step; they end by themselves long before.
 constexpr int kMostIntegerSweeps = 100;
-/// Steps of the repairs at all scales, a face; each one's own bound is half of it. What fails at two scales in full
-/// fails at the others, too.
-constexpr std::size_t kMostStepsOfScales = 10000;
+/// Steps of searches that a repair may take, a face; those of rounded integers that succeeded took up to 4,100, others
+/// more than 11,000.
+constexpr std::size_t kMostIntegerSteps = 5000;
+/// What fails at two scales in full fails at the others, too.
+constexpr std::size_t kMostStepsOfScales = 2 * kMostIntegerSteps;
+/// Where integers were valid little is broken, and where they fail others are there still.
+constexpr std::size_t kMostStepsOfValid = 2000;
 /// Rounds of improvement with a new triangulation each.
 constexpr int kMaximumRounds = 6;
 
@@ -118,9 +122,10 @@ void lengthenLoops(IntegerMap& map, StripSearch& search)
 class Repair
 {
 public:
-  explicit Repair(IntegerMap& map)
-    : map_(map), weight_(map.mesh().alive.size(), 1), search_(map, StripCost::Repair, &weight_),
-      breakouts_(kBreakouts + map.faces().size() / 4)
+  /// mostSteps: of searches, a face
+  Repair(IntegerMap& map, std::size_t mostSteps)
+    : map_(map), mostSteps_(mostSteps * map.faces().size()), weight_(map.mesh().alive.size(), 1),
+      search_(map, StripCost::Repair, &weight_), breakouts_(kBreakouts + map.faces().size() / 4)
   {
   }
 
@@ -141,7 +146,7 @@ public:
       {
         continue;
       }
-      if (breakouts_ == 0 || search_.work() > kMostIntegerSteps * map_.faces().size())
+      if (breakouts_ == 0 || search_.work() > mostSteps_)
       {
         return false;
       }
@@ -303,10 +308,9 @@ private:
 
   static constexpr double kLeastMend = 0.5; ///< below one unit of brokenness
   static constexpr std::size_t kBreakouts = 40;
-  /// Of the searches, a face; repairs that succeeded took up to 4,100, others more than 11,000.
-  static constexpr std::size_t kMostIntegerSteps = 5000;
 
   IntegerMap& map_;
+  std::size_t mostSteps_;
   std::vector<double> weight_; ///< #F
   StripSearch search_;
   std::size_t breakouts_;
@@ -521,9 +525,7 @@ private:
   std::vector<Refusal> refused_;       ///< 4 #H: by half-edge and direction, for one length of step
 };
 
-} // namespace
-
-IntegerStart repairIntegers(IntegerMap& map)
+IntegerStart repaired(IntegerMap& map, std::size_t mostSteps)
 {
   IntegerStart start;
   StripSearch search(map, StripCost::Repair);
@@ -531,7 +533,7 @@ IntegerStart repairIntegers(IntegerMap& map)
   start.steps = search.work();
   if (closed)
   {
-    Repair repair(map);
+    Repair repair(map, mostSteps);
     start.valid = repair.run() && map.isValid();
     if (start.valid && repair.hasBrokenOut())
     {
@@ -547,6 +549,13 @@ IntegerStart repairIntegers(IntegerMap& map)
   return start;
 }
 
+} // namespace
+
+IntegerStart repairValidIntegers(IntegerMap& map)
+{
+  return repaired(map, kMostStepsOfValid);
+}
+
 IntegerStart findValidIntegers(
   IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress)
 {
@@ -559,9 +568,9 @@ IntegerStart findValidIntegers(
       countTry(Try::FinerScale);
     }
     map.round(start.scale);
-    const IntegerStart repaired = repairIntegers(map);
-    start.steps += repaired.steps;
-    start.valid = repaired.valid;
+    const IntegerStart atScale = repaired(map, kMostIntegerSteps);
+    start.steps += atScale.steps;
+    start.valid = atScale.valid;
     if (start.valid && start.scale > scale)
     {
       countTryLed(Try::FinerScale);

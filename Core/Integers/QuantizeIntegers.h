@@ -24,8 +24,9 @@ struct IntegerStart
 IntegerStart findValidIntegers(
   IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress);
 
-/// Closes and repairs the displacements that the map has, whose scale is 1; not valid where that does not succeed.
-IntegerStart repairIntegers(IntegerMap& map);
+/// Closes and repairs displacements that were valid before the wanted ones or the kept vertices changed; not valid
+/// where that does not succeed.
+IntegerStart repairValidIntegers(IntegerMap& map);
 
 /// The triangles that are not closed, or not sound, where the map is not valid.
 std::vector<Index> brokenFaces(const IntegerMap& map);

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Integers/UvMesh.h"
 
+#include "Integers/StarKernel.h"
 #include "Mesh/Topology.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace quadrille
@@ -403,15 +406,33 @@ void UvEditor::restore(const UvRecord& record)
   }
 }
 
-void UvEditor::undoTo(std::size_t count)
+/// h: of an edge that was flipped back. returned: the vertex that has come back last.
+void UvEditor::keepPositive(Index h, const std::vector<std::uint8_t>& held, Index returned)
 {
+  const Index g = mesh_.twin[h];
+  if (mesh_.faceDeterminant(Mesh::face(h)) > 0 && mesh_.faceDeterminant(Mesh::face(g)) > 0)
+  {
+    return;
+  }
+  std::array<Index, 4> corners{ h, g, Mesh::previous(h), Mesh::previous(g) };
+  std::stable_partition(
+    corners.begin(), corners.end(), [&](Index c) { return mesh_.origin[c] == returned; });
+  static_cast<void>(std::any_of(corners.begin(), corners.end(),
+    [&](Index c) { return held[mesh_.origin[c]] == 0 && moveIntoKernel(mesh_, c); }));
+}
+
+void UvEditor::undoTo(std::size_t count, const std::vector<std::uint8_t>& held)
+{
+  Index returned = kInvalidIndex;
   while (records_.size() > count)
   {
     const UvRecord record = records_.back();
+    returned = record.vertex != kInvalidIndex ? record.vertex : returned;
     switch (record.kind)
     {
       case UvRecord::Kind::Flip:
         undoFlip(record);
+        keepPositive(record.slot, held, returned);
         break;
       case UvRecord::Kind::RemoveInside:
         undoRemoveInside(record);

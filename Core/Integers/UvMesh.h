@@ -100,11 +100,11 @@ public:
   /// undone.
   void repeat(const std::vector<UvRecord>& records);
 
-  /// Undoes everything, last first, on the mesh's current uv, whatever that has become: removed vertices
-  /// return at their weights, rounded once, and faces that return get charts with whole translations.
-  void undoAll() { undoTo(0); }
-  /// The same for all but the first so many operations.
-  void undoTo(std::size_t count);
+  /// Undoes all but the first so many operations, last first, on the mesh's current uv, whatever that has become:
+  /// removed vertices return at their weights, rounded once, and faces that return get charts with whole translations.
+  /// Where an edge that is flipped back leaves a triangle that is not positive, a vertex there that is not held (#V
+  /// flags) goes into the kernel of its star, the one that has returned last before others.
+  void undoTo(std::size_t count, const std::vector<std::uint8_t>& held);
 
 private:
   struct SlotState
@@ -133,6 +133,7 @@ private:
   void bury(Index f);
   void restore(const UvRecord& record);
   void undoFlip(const UvRecord& record);
+  void keepPositive(Index h, const std::vector<std::uint8_t>& held, Index returned);
   void undoRemoveInside(const UvRecord& record);
   void undoRemoveOnLine(const UvRecord& record);
   void reviveSide(Index h, FixedVec2 v, FixedVec2 r);

@@ -88,9 +88,8 @@ GridMapResult computeMap(RunContext& run, const PlannedSurface& surface, const H
     options.vertexIds = coarse.fineVertex;
   }
   GridMapResult map = computeGridMap(mesh, options);
-  const std::array<std::pair<std::size_t, const char*>, 3> reuses{
-    { { map.reuse.seamless, "seamless" }, { map.reuse.integers, "quantize" },
-      { map.reuse.embedded, "embed" } }
+  const std::array<std::pair<std::size_t, const char*>, 2> reuses{
+    { { map.reuse.seamless, "seamless" }, { map.reuse.integers, "quantize" } }
   };
   for (const auto& [components, stage] : reuses)
   {

@@ -167,7 +167,7 @@ TEST(Blocks, AStopTellsWhichBlocksAreDone)
   const test::Messages messages(filter);
   filter->SetInputData(input);
   filter->SetTargetTypeToNumberOfQuads();
-  filter->SetNumberOfQuads(320);
+  filter->SetNumberOfQuads(340);
   {
     const test::StopAt stop(filter, "Attempt 2 of at most ");
     filter->Update();

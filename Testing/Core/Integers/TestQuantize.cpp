@@ -50,6 +50,19 @@ double uvArea(const std::vector<FixedVec2>& uv)
   return area;
 }
 
+std::vector<Index> notPositive(const std::vector<FixedVec2>& uv)
+{
+  std::vector<Index> faces;
+  for (Index f = 0; 3 * f < uv.size(); ++f)
+  {
+    if (!(determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) > 0))
+    {
+      faces.push_back(f);
+    }
+  }
+  return faces;
+}
+
 /// Transitions whole and exact, isolines whole, integer vertices at integers: all but the determinants.
 void expectWhole(const SyntheticMap& map, const std::vector<FixedVec2>& uv)
 {
@@ -91,7 +104,7 @@ TEST(UvMesh, UndoRestoresTheMap)
     LockedVertices locked =
       lockedVertices(c.map.mesh, mesh, integerVertices(c.map.mesh, c.map.field), {});
     decimateInUv(mesh, editor, locked.keep);
-    editor.undoAll();
+    editor.undoTo(0, locked.keep);
     EXPECT_EQ(mesh.origin, before.origin);
     EXPECT_EQ(mesh.twin, before.twin);
     EXPECT_EQ(mesh.rotation, before.rotation);
@@ -267,6 +280,59 @@ TEST(Quantize, KeepsAMapThatIsWholeAlready)
   ASSERT_TRUE(second.status.ok());
   EXPECT_EQ(uvArea(first.uv), uvArea(second.uv));
   EXPECT_EQ(second.refinement, 1);
+}
+
+TEST(Quantize, IntegersLeaveRoomForWatchedVertices)
+{
+  for (const double length : { 0.6, 1.3, 2.4 })
+  {
+    for (const Case& c : cases(length))
+    {
+      SCOPED_TRACE(c.name + " " + std::to_string(length));
+      QuantizeResult result = quantizeMap(c.map.mesh, c.map.field, c.map.uv, {});
+      ASSERT_TRUE(result.status.ok()) << result.status.message;
+      QuantizeOptions options;
+      options.anew = false;
+      for (std::vector<Index> bad = notPositive(result.uv); !bad.empty();
+           bad = notPositive(result.uv))
+      {
+        ASSERT_LT(options.watched.size(), 12U) << "few vertices have no place";
+        for (const Index f : bad)
+        {
+          const auto corner = c.map.mesh.origin.begin() + 3 * f;
+          options.watched.insert(options.watched.end(), corner, corner + 3);
+        }
+        const std::vector<FixedVec2> before = result.uv;
+        options.previousUv = &before;
+        result = quantizeMap(c.map.mesh, c.map.field, c.map.uv, options);
+        ASSERT_TRUE(result.status.ok()) << result.status.message;
+        EXPECT_TRUE(result.startedFromPrevious);
+        expectWhole(c.map, result.uv);
+      }
+    }
+  }
+}
+
+TEST(Quantize, IntegersOfAnotherScaleAreAStart)
+{
+  const std::vector<Case> large = cases(4.7), small = cases(2.9);
+  for (std::size_t i = 0; i < large.size(); ++i)
+  {
+    SCOPED_TRACE(large[i].name);
+    const QuantizeResult first =
+      quantizeMap(large[i].map.mesh, large[i].map.field, large[i].map.uv, {});
+    ASSERT_TRUE(first.status.ok());
+    QuantizeOptions options;
+    options.previousUv = &first.uv;
+    options.anew = false;
+    const QuantizeResult second =
+      quantizeMap(small[i].map.mesh, small[i].map.field, small[i].map.uv, options);
+    ASSERT_TRUE(second.status.ok()) << second.status.message;
+    EXPECT_TRUE(second.startedFromPrevious);
+    expectWhole(small[i].map, second.uv);
+    const double wanted = uvArea(small[i].map.uv);
+    EXPECT_LT(std::abs(uvArea(second.uv) / wanted - 1), 0.5);
+  }
 }
 
 TEST(Quantize, IsDeterministic)
