@@ -132,7 +132,7 @@ TEST(StarKernel, LeavesAVertexWithoutKernelWhereItIs)
   // A neighbour goes to the other side: an edge of the ring has the whole star on its wrong side.
   const Index h = mesh.outgoing[v];
   const FixedVec2 across = mesh.vector(h);
-  move(mesh, mesh.target(h), -rotate(FixedVec2{ 8 * across.u, 8 * across.v }, 0));
+  move(mesh, mesh.target(h), { -8 * across.u, -8 * across.v });
   const std::vector<FixedVec2> before = mesh.uv;
   EXPECT_FALSE(moveIntoKernel(mesh, h));
   EXPECT_TRUE(mesh.uv == before);
