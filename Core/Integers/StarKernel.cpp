@@ -13,25 +13,19 @@ namespace quadrille
 namespace
 {
 
-/// Half-edges that leave the vertex, counterclockwise, from that on the boundary if there is one.
-std::vector<Index> starAt(const UvMesh& mesh, Index corner)
+/// The half-edge on the boundary that leaves the vertex at `corner`, or that of the corner where there is none.
+Index beginOfStar(const UvMesh& mesh, Index corner)
 {
-  Index first = corner;
-  while (mesh.twin[first] != kInvalidIndex)
+  Index h = corner;
+  while (mesh.twin[h] != kInvalidIndex)
   {
-    first = Mesh::next(mesh.twin[first]);
-    if (first == corner)
+    h = Mesh::next(mesh.twin[h]);
+    if (h == corner)
     {
       break;
     }
   }
-  std::vector<Index> star;
-  for (Index h = first; h != kInvalidIndex && (star.empty() || h != first);
-       h = mesh.twin[Mesh::previous(h)])
-  {
-    star.push_back(h);
-  }
-  return star;
+  return h;
 }
 
 } // namespace
@@ -39,7 +33,7 @@ std::vector<Index> starAt(const UvMesh& mesh, Index corner)
 bool moveIntoKernel(UvMesh& mesh, Index corner)
 {
   const Index v = mesh.origin[corner];
-  const std::vector<Index> star = starAt(mesh, corner);
+  const std::vector<Index> star = mesh.starFrom(beginOfStar(mesh, corner));
   const bool closed = mesh.twin[star.front()] != kInvalidIndex;
   if (star.size() >= kMaximumRing ||
     std::any_of(star.begin(), star.end(),

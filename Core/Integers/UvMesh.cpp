@@ -73,15 +73,15 @@ Transition UvMesh::transition(Index h) const
   return result;
 }
 
-std::vector<Index> UvMesh::star(Index v) const
+std::vector<Index> UvMesh::starFrom(Index first) const
 {
   std::vector<Index> result;
-  Index h = outgoing[v];
+  Index h = first;
   do
   {
     result.push_back(h);
     h = twin[Mesh::previous(h)];
-  } while (h != kInvalidIndex && h != outgoing[v]);
+  } while (h != kInvalidIndex && h != first);
   return result;
 }
 

@@ -51,7 +51,9 @@ struct UvMesh
   /// From the chart of face(h) to that of its twin's face. Exact.
   Transition transition(Index h) const;
   /// Half-edges that leave v, counterclockwise; a boundary vertex begins with its boundary half-edge.
-  std::vector<Index> star(Index v) const;
+  std::vector<Index> star(Index v) const { return starFrom(outgoing[v]); }
+  /// The same from a half-edge on; of a boundary vertex it is the one on the boundary.
+  std::vector<Index> starFrom(Index first) const;
 };
 
 /// One operation with what undoing it needs.
