@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/Embed.h"
 
-#include "Base/Angles.h"
 #include "Base/Refuse.h"
 #include "GridMap/FieldUntangling.h"
 #include "GridMap/LockedMap.h"
@@ -11,7 +10,6 @@
 #include "Mesh/Sizing.h"
 #include "Numerics/Untangler.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -530,17 +530,27 @@ private:
     return true;
   }
 
-  /// Where no map with these integers is positive, others leave room round the places of the failure, and for the
-  /// vertices that found no star to return to. Where another component has no map, all that counts is where this one
-  /// would fail, too: one try tells.
+  /// Integers with room round the places of the failure and for the vertices that found no star to return to; round the
+  /// places of the failure alone, where there are no such integers.
+  bool leaveRoom(Component& component, const EmbedResult& embedded, std::vector<Index>& watched,
+    const ProgressCallback& progress)
+  {
+    const Mesh& mesh = component.part.mesh;
+    const std::vector<Index> wide =
+      join(cornerVertices(mesh, findNotPositive(mesh, component.uv)), embedded.failedAt);
+    return changeIntegers(component, wide, embedded.failedFaces, watched, progress) ||
+      (wide != embedded.failedAt &&
+        changeIntegers(component, embedded.failedAt, embedded.failedFaces, watched, progress));
+  }
+
+  /// Where no map with these integers is positive, others are tried. Where another component has no map, all that
+  /// counts is where this one would fail, too: one try tells.
   void embedOne(Component& component, const ProgressCallback& progress)
   {
     const MeshPart& part = component.part;
     std::vector<Index> watched;
     for (int tried = 1;; ++tried)
     {
-      const std::vector<Index> homeless =
-        cornerVertices(part.mesh, findNotPositive(part.mesh, component.uv));
       EmbedOptions embedOptions;
       embedOptions.edgeLength = options_.edgeLength;
       embedOptions.anisotropyLimit = options_.anisotropyLimit;
@@ -559,9 +569,7 @@ private:
         return;
       }
       if (failures() > 0 || tried == kMostEmbeddings ||
-        (!changeIntegers(
-           component, join(homeless, embedded.failedAt), embedded.failedFaces, watched, progress) &&
-          !changeIntegers(component, embedded.failedAt, embedded.failedFaces, watched, progress)))
+        !leaveRoom(component, embedded, watched, progress))
       {
         component.isTriedOnce = failures() > 0;
         component.fail(embedded.status, std::move(embedded.uv),

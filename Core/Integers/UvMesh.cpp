@@ -417,8 +417,13 @@ void UvEditor::keepPositive(Index h, const std::vector<std::uint8_t>& held, Inde
   std::array<Index, 4> corners{ h, g, Mesh::previous(h), Mesh::previous(g) };
   std::stable_partition(
     corners.begin(), corners.end(), [&](Index c) { return mesh_.origin[c] == returned; });
-  static_cast<void>(std::any_of(corners.begin(), corners.end(),
-    [&](Index c) { return held[mesh_.origin[c]] == 0 && moveIntoKernel(mesh_, c); }));
+  for (const Index c : corners)
+  {
+    if (held[mesh_.origin[c]] == 0 && moveIntoKernel(mesh_, c))
+    {
+      return;
+    }
+  }
 }
 
 void UvEditor::undoTo(std::size_t count, const std::vector<std::uint8_t>& held)

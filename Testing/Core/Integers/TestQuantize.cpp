@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/MapCheck.h"
 #include "Integers/LockedVertices.h"
 #include "Integers/Quantize.h"
 #include "Integers/QuantizeIntegers.h"
@@ -48,19 +49,6 @@ double uvArea(const std::vector<FixedVec2>& uv)
     area += 0.5 * (a.x() * b.y() - a.y() * b.x());
   }
   return area;
-}
-
-std::vector<Index> notPositive(const std::vector<FixedVec2>& uv)
-{
-  std::vector<Index> faces;
-  for (Index f = 0; 3 * f < uv.size(); ++f)
-  {
-    if (!(determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) > 0))
-    {
-      faces.push_back(f);
-    }
-  }
-  return faces;
 }
 
 /// Transitions whole and exact, isolines whole, integer vertices at integers: all but the determinants.
@@ -293,8 +281,8 @@ TEST(Quantize, IntegersLeaveRoomForWatchedVertices)
       ASSERT_TRUE(result.status.ok()) << result.status.message;
       QuantizeOptions options;
       options.anew = false;
-      for (std::vector<Index> bad = notPositive(result.uv); !bad.empty();
-           bad = notPositive(result.uv))
+      const auto badFaces = [&] { return findNotPositive(c.map.mesh, result.uv); };
+      for (std::vector<Index> bad = badFaces(); !bad.empty(); bad = badFaces())
       {
         ASSERT_LT(options.watched.size(), 12U) << "few vertices have no place";
         for (const Index f : bad)

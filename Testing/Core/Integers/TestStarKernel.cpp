@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Integers/StarKernel.h"
 
+#include "GridMap/MapCheck.h"
 #include "SyntheticMaps.h"
 
 #include <gtest/gtest.h>
@@ -23,16 +24,6 @@ void move(UvMesh& mesh, Index v, FixedVec2 by)
   }
 }
 
-std::size_t notPositive(const UvMesh& mesh)
-{
-  std::size_t count = 0;
-  for (Index f = 0; f < mesh.alive.size(); ++f)
-  {
-    count += mesh.faceDeterminant(f) > 0 ? 0 : 1;
-  }
-  return count;
-}
-
 void expectThatEdgesAgree(const UvMesh& mesh)
 {
   for (Index h = 0; h < mesh.origin.size(); ++h)
@@ -42,6 +33,17 @@ void expectThatEdgesAgree(const UvMesh& mesh)
       EXPECT_EQ(mesh.vector(mesh.twin[h]), -rotate(mesh.vector(h), mesh.rotation[h])) << h;
     }
   }
+}
+
+/// The vertex leaves its star, and comes back into it from `corner`.
+void expectReturn(const SyntheticMap& map, UvMesh& mesh, Index v, FixedVec2 by, Index corner)
+{
+  ASSERT_TRUE(findNotPositive(map.mesh, mesh.uv).empty());
+  move(mesh, v, by);
+  ASSERT_FALSE(findNotPositive(map.mesh, mesh.uv).empty());
+  EXPECT_TRUE(moveIntoKernel(mesh, corner));
+  EXPECT_TRUE(findNotPositive(map.mesh, mesh.uv).empty());
+  expectThatEdgesAgree(mesh);
 }
 
 /// A vertex with so many fixed edges that leave it, straight through.
@@ -62,47 +64,43 @@ Index vertexWith(const UvMesh& mesh, bool onBoundary, std::size_t fixedEdges)
   return kInvalidIndex;
 }
 
-UvMesh plate()
+SyntheticMap plate()
 {
-  const SyntheticMap map = plateMap(gridPlane(4, 4), 1, 4, 5, 1);
+  return plateMap(gridPlane(4, 4), 1, 4, 5, 1);
+}
+
+UvMesh meshOf(const SyntheticMap& map)
+{
   return UvMesh::from(map.mesh, map.field, map.uv);
 }
 
 TEST(StarKernel, BringsAVertexBackIntoItsStar)
 {
-  UvMesh mesh = plate();
+  const SyntheticMap map = plate();
+  UvMesh mesh = meshOf(map);
   const Index v = vertexWith(mesh, false, 0);
   ASSERT_NE(v, kInvalidIndex);
-  ASSERT_EQ(notPositive(mesh), 0U);
-  move(mesh, v, { 9 * kOne, 2 * kOne });
-  ASSERT_GT(notPositive(mesh), 0U);
-  EXPECT_TRUE(moveIntoKernel(mesh, mesh.outgoing[v]));
-  EXPECT_EQ(notPositive(mesh), 0U);
-  expectThatEdgesAgree(mesh);
+  expectReturn(map, mesh, v, { 9 * kOne, 2 * kOne }, mesh.outgoing[v]);
 }
 
 TEST(StarKernel, KeepsAVertexOfTheBoundaryOnIt)
 {
-  UvMesh mesh = plate();
+  const SyntheticMap map = plate();
+  UvMesh mesh = meshOf(map);
   const Index v = vertexWith(mesh, true, 1);
   ASSERT_NE(v, kInvalidIndex);
   const Index h = mesh.outgoing[v];
   const FixedVec2 along = mesh.vector(h);
   ASSERT_TRUE(along.u == 0 || along.v == 0);
   const FixedVec2 before = mesh.uv[h];
-  move(mesh, v, along + along);
-  ASSERT_GT(notPositive(mesh), 0U);
-  // Any of its corners will do.
-  EXPECT_TRUE(moveIntoKernel(mesh, mesh.star(v).back()));
-  EXPECT_EQ(notPositive(mesh), 0U);
+  expectReturn(map, mesh, v, along + along, mesh.star(v).back()); // any of its corners will do
   EXPECT_EQ(along.u == 0 ? mesh.uv[h].u : mesh.uv[h].v, along.u == 0 ? before.u : before.v);
-  expectThatEdgesAgree(mesh);
 }
 
 TEST(StarKernel, KeepsAVertexOfAFeatureOnIt)
 {
   const SyntheticMap map = axisAlignedMap(markFeatures(unitCube(5), 0.7), 1, 5, 6, 1);
-  UvMesh mesh = UvMesh::from(map.mesh, map.field, map.uv);
+  UvMesh mesh = meshOf(map);
   const Index v = vertexWith(mesh, false, 2);
   ASSERT_NE(v, kInvalidIndex);
   const std::vector<Index> star = mesh.star(v);
@@ -115,18 +113,15 @@ TEST(StarKernel, KeepsAVertexOfAFeatureOnIt)
   }
   const FixedVec2 along = rotate(mesh.vector(*fixed), turns);
   const FixedVec2 before = mesh.uv[star.front()];
-  move(mesh, v, along + along);
-  ASSERT_GT(notPositive(mesh), 0U);
-  EXPECT_TRUE(moveIntoKernel(mesh, star.front()));
-  EXPECT_EQ(notPositive(mesh), 0U);
+  expectReturn(map, mesh, v, along + along, star.front());
   const FixedVec2 after = mesh.uv[star.front()];
   EXPECT_EQ(along.u == 0 ? after.u : after.v, along.u == 0 ? before.u : before.v);
-  expectThatEdgesAgree(mesh);
 }
 
 TEST(StarKernel, LeavesAVertexWithoutKernelWhereItIs)
 {
-  UvMesh mesh = plate();
+  const SyntheticMap map = plate();
+  UvMesh mesh = meshOf(map);
   const Index v = vertexWith(mesh, false, 0);
   ASSERT_NE(v, kInvalidIndex);
   // A neighbour goes to the other side: an edge of the ring has the whole star on its wrong side.
