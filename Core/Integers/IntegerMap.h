@@ -74,6 +74,12 @@ public:
   FixedVec2 residual(Index f) const { return q_[3 * f] + q_[3 * f + 1] + q_[3 * f + 2]; }
   /// Twice the area of face f in units of kGrain^-2 quads.
   std::int64_t determinant(Index f) const { return cross(q_[3 * f], q_[3 * f + 1]); }
+  /// The determinant that a face has once e comes in over its half-edge `in` and leaves over `out`.
+  std::int64_t crossedDeterminant(Index in, FixedVec2 e, Index out) const
+  {
+    const FixedVec2 a = q_[in] + e, b = q_[out] - e;
+    return out == Mesh::next(in) ? cross(a, b) : cross(b, a);
+  }
   /// 0 for a sound triangle, else by how much it misses that; in units of a determinant.
   static std::int64_t brokenness(std::int64_t determinant)
   {

@@ -6,12 +6,14 @@
 #include "Base/WorkCount.h"
 #include "Integers/StripSearch.h"
 #include "Integers/StripSteps.h"
+#include "Integers/StripWays.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace quadrille
 {
@@ -322,7 +324,8 @@ class Improvement
 {
 public:
   explicit Improvement(IntegerMap& map)
-    : map_(map), search_(map, StripCost::KeepSound), changed_(map.mesh().alive.size(), 0)
+    : map_(map), search_(map, StripCost::KeepSound), ways_(map),
+      changed_(map.mesh().alive.size(), 0)
   {
   }
 
@@ -351,6 +354,7 @@ public:
         break;
       }
       map_.makeDelaunay();
+      ways_.forget();
       longest = kGrain;
     }
   }
@@ -420,6 +424,7 @@ private:
       Refusal& refusal = refused_[4 * candidate.halfEdge + candidate.direction];
       double gain = -map_.energyChange(candidate.halfEdge, e);
       while (gain > kLeastEnergyGain && !isUpToDate(refusal) &&
+        mayHaveStrip(candidate.halfEdge, e, gain) &&
         accept(search_.through(candidate.halfEdge, e, gain), refusal))
       {
         improved = true;
@@ -443,8 +448,21 @@ private:
         [&](Index f) { return changed_[f] <= refusal.time; });
   }
 
+  /// Ways tell of a single map and gain, and take as long as some searches: they are found when searches have taken as
+  /// many steps for nothing.
+  bool mayHaveStrip(Index h, FixedVec2 e, double gain)
+  {
+    if (wasted_ > ways_.states())
+    {
+      ways_.find(IntegerMap::lengthOf(e), gain);
+      wasted_ = 0;
+    }
+    return ways_.mayHave(h, e, gain);
+  }
+
   void touch(const std::vector<Index>& faces)
   {
+    ways_.forget();
     ++clock_;
     for (const Index f : faces)
     {
@@ -454,6 +472,7 @@ private:
 
   bool accept(const Strip& strip, Refusal& refusal)
   {
+    const std::size_t steps = search_.work() - std::exchange(stepsBefore_, search_.work());
     bool localReason = true;
     if (strip.found())
     {
@@ -477,6 +496,7 @@ private:
       }
       revert(map_, strip);
     }
+    wasted_ += steps;
     refusal.time = localReason ? clock_ : 0;
     refusal.faces = search_.visitedFaces();
     return false;
@@ -520,6 +540,9 @@ private:
 
   IntegerMap& map_;
   StripSearch search_;
+  StripWays ways_;
+  std::size_t stepsBefore_ = 0; ///< of all searches but the last one
+  std::size_t wasted_ = 0;      ///< steps of searches that found nothing, since ways were found
   std::uint64_t clock_ = 1;
   std::vector<std::uint64_t> changed_; ///< #F: time of the last change
   std::vector<Refusal> refused_;       ///< 4 #H: by half-edge and direction, for one length of step

@@ -46,17 +46,6 @@ void StripSearch::visit(Index f)
   }
 }
 
-FixedVec2 StripSearch::vectorOf(Index state) const
-{
-  return stepVector(static_cast<int>(state & 3), length_);
-}
-
-Index StripSearch::stateOf(Index h, FixedVec2 e)
-{
-  const Index direction = e.u > 0 ? 0 : e.v > 0 ? 1 : e.u < 0 ? 2 : 3;
-  return 4 * h + direction;
-}
-
 void StripSearch::push(Entry entry)
 {
   std::size_t i = heap_.size();
@@ -137,9 +126,7 @@ bool StripSearch::pop(Index& state, double& cost)
 /// Price of the triangle for e coming in through `in` and leaving through `out`.
 double StripSearch::crossingCost(Index in, FixedVec2 e, Index out, bool isFirst) const
 {
-  const FixedVec2 a = map_[in] + e, b = map_[out] - e;
-  const std::int64_t after =
-    out == Mesh::next(in) ? IntegerMap::cross(a, b) : IntegerMap::cross(b, a);
+  const std::int64_t after = map_.crossedDeterminant(in, e, out);
   if (cost_ == StripCost::KeepSound)
   {
     return IntegerMap::brokenness(after) == 0 ? 0 : kInfinity;

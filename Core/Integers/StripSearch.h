@@ -27,6 +27,17 @@ struct Strip
   bool found() const { return !steps.empty(); }
 };
 
+/// A strip on its way, as a number: the half-edge that it enters a face over, and the direction of its vector.
+inline Index stateOf(Index h, FixedVec2 e)
+{
+  const Index direction = e.u > 0 ? 0 : e.v > 0 ? 1 : e.u < 0 ? 2 : 3;
+  return 4 * h + direction;
+}
+inline FixedVec2 vectorOfState(Index state, std::int64_t length)
+{
+  return stepVector(static_cast<int>(state & 3), length);
+}
+
 /// What crossing a triangle costs.
 enum class StripCost
 {
@@ -90,8 +101,7 @@ private:
   void push(Entry entry);
   Entry popFirst();
   void visit(Index f);
-  static Index stateOf(Index h, FixedVec2 e);
-  FixedVec2 vectorOf(Index state) const;
+  FixedVec2 vectorOf(Index state) const { return vectorOfState(state, length_); }
   void relax(Index state, double cost, Index parent);
   bool pop(Index& state, double& cost);
   double crossingCost(Index in, FixedVec2 e, Index out, bool isFirst) const;
