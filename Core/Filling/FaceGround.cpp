@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace quadrille
@@ -90,12 +91,13 @@ FaceGround::FaceGround(const Mesh& face, const std::vector<std::uint8_t>& isPin,
     }
   }
   measureAngles();
-  collectFinePins();
+  measureSizes();
 }
 
 FaceGround::FaceGround(const Mesh& face)
   : face_(face), edgeLength_(0), nearest_(trianglesOf(face)), normals_(vertexNormals(face))
 {
+  measureSizes();
 }
 
 void FaceGround::walkLoop(
@@ -148,7 +150,7 @@ void FaceGround::measureAngles()
   }
 }
 
-void FaceGround::collectFinePins()
+std::vector<FaceGround::FinePin> FaceGround::finePins() const
 {
   std::vector<double> spacing(face_.vertexCount(), 0);
   for (Index v = 0; v < face_.vertexCount(); ++v)
@@ -160,29 +162,41 @@ void FaceGround::collectFinePins()
       spacing[nextPin_[v]] += length / 2;
     }
   }
+  std::vector<FinePin> pins;
   for (Index v = 0; v < face_.vertexCount(); ++v)
   {
     if (isPin(v) && spacing[v] < kFineSpacing * sizeAt(face_, v))
     {
-      finePins_.emplace_back(face_.position[v], std::max(spacing[v], kSmallest * sizeAt(face_, v)));
-      finest_ = std::min(finest_, finePins_.back().second);
+      pins.push_back({ face_.position[v], std::max(spacing[v], kSmallest * sizeAt(face_, v)) });
     }
   }
-  std::sort(finePins_.begin(), finePins_.end(),
-    [](const FinePin& a, const FinePin& b) { return a.first.x() < b.first.x(); });
+  std::sort(pins.begin(), pins.end(),
+    [](const FinePin& a, const FinePin& b) { return a.place.x() < b.place.x(); });
+  return pins;
 }
 
-double FaceGround::sizeNear(const Vector3& p, double size) const
+void FaceGround::measureSizes()
 {
-  // Of farther ones none makes it smaller.
-  const double reach = (1 + 1e-9) * (size - finest_) / kGrowthFromPins * edgeLength_;
-  const auto first = std::lower_bound(finePins_.begin(), finePins_.end(), p.x() - reach,
-    [](const FinePin& pin, double x) { return pin.first.x() < x; });
-  for (auto pin = first; pin != finePins_.end() && pin->first.x() <= p.x() + reach; ++pin)
+  const std::vector<FinePin> pins = finePins();
+  double finest = std::numeric_limits<double>::infinity();
+  for (const FinePin& pin : pins)
   {
-    size = std::min(size, pin->second + kGrowthFromPins * (pin->first - p).norm() / edgeLength_);
+    finest = std::min(finest, pin.size);
   }
-  return size;
+  for (Index v = 0; v < face_.vertexCount(); ++v)
+  {
+    const Vector3& p = face_.position[v];
+    double size = sizeAt(face_, v);
+    // Of farther ones none makes it smaller.
+    const double reach = (1 + 1e-9) * (size - finest) / kGrowthFromPins * edgeLength_;
+    auto pin = std::lower_bound(pins.begin(), pins.end(), p.x() - reach,
+      [](const FinePin& a, double x) { return a.place.x() < x; });
+    for (; pin != pins.end() && pin->place.x() <= p.x() + reach; ++pin)
+    {
+      size = std::min(size, pin->size + kGrowthFromPins * (pin->place - p).norm() / edgeLength_);
+    }
+    sizes_.push_back(size);
+  }
 }
 
 std::optional<FaceGround::Spot> FaceGround::at(
@@ -202,10 +216,9 @@ std::optional<FaceGround::Spot> FaceGround::at(
   {
     const Index v = face_.origin[3 * spot.face + i];
     spot.normal += spot.weights[i] * normals_[v];
-    spot.size += spot.weights[i] * sizeAt(face_, v);
+    spot.size += spot.weights[i] * sizes_[v];
   }
   spot.normal.normalize();
-  spot.size = sizeNear(spot.point, spot.size);
   return spot;
 }
 

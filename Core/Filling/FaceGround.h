@@ -8,9 +8,7 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -46,8 +44,8 @@ public:
   std::optional<Spot> at(const Vector3& p, const Vector3& facing, const Vector3& near) const;
   /// Per vertex of the face; of length 1, or zero.
   const std::vector<Vector3>& normals() const { return normals_; }
-  /// That is wanted at a place whose size is `size` for itself: near pins that stand closer together it is less.
-  double sizeNear(const Vector3& p, double size) const;
+  /// Per vertex of the face, as a multiple of the edge length: near pins that stand closer together it is less.
+  const std::vector<double>& sizes() const { return sizes_; }
   double edgeLength() const { return edgeLength_; }
 
   /// Of vertices, also of those that a working copy has beyond the face's own.
@@ -63,18 +61,23 @@ private:
   void walkLoop(
     Index first, const std::vector<std::uint8_t>& isPin, std::vector<std::uint8_t>& walked);
   void measureAngles();
-  void collectFinePins();
+  /// One that stands close to its neighbours.
+  struct FinePin
+  {
+    Vector3 place;
+    double size; ///< by the distance of its neighbours
+  };
+  std::vector<FinePin> finePins() const;
+  void measureSizes();
 
   const Mesh& face_;
   double edgeLength_;
   NearestTriangle nearest_;
   std::vector<Vector3> normals_;
+  std::vector<double> sizes_;
   std::vector<Index> nextPin_;
   std::vector<double> angles_; ///< per vertex
   std::vector<std::size_t> pinsOfLoops_;
-  using FinePin = std::pair<Vector3, double>; ///< place, size by the distance of its neighbours
-  std::vector<FinePin> finePins_;             ///< by x
-  double finest_ = std::numeric_limits<double>::infinity(); ///< least size of these
 };
 
 /// 1 for an equilateral triangle, 0 for one without area, below 0 for one that is turned over against the normal.

@@ -45,12 +45,8 @@ public:
     {
       onBoundary_[face.origin[h]] |= face.isBoundary(h) ? 1 : 0;
     }
-    std::vector<float> sizes;
-    for (Index v = 0; v < face.vertexCount(); ++v)
-    {
-      sizes.push_back(static_cast<float>(ground.sizeNear(face.position[v], sizeAt(face, v))));
-    }
-    result_.surface.mesh.sizing = std::move(sizes);
+    result_.surface.mesh.sizing =
+      std::vector<float>(ground.sizes().begin(), ground.sizes().end());
   }
 
   FaceTriangles run()

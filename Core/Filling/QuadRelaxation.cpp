@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace quadrille
 {
@@ -63,6 +64,15 @@ private:
     {
       worst = std::min(worst, shapeOfQuad(mesh_, mesh_.quads[*c / 4]));
     }
+    return worst;
+  }
+
+  /// With the point there, wherever the face is.
+  double worstShapeWith(Index v, const Vector3& place)
+  {
+    const Vector3 before = std::exchange(mesh_.points[v], place);
+    const double worst = worstShapeAt(v);
+    mesh_.points[v] = before;
     return worst;
   }
 
@@ -132,8 +142,13 @@ private:
       for (int i = 0; i < kSearchDirections; ++i)
       {
         const double angle = 2 * kPi * i / kSearchDirections;
-        tryMove(v, place + step * edge * (std::cos(angle) * u + std::sin(angle) * w),
-          worstShapeAt(v) + 1e-6);
+        const Vector3 to = place + step * edge * (std::cos(angle) * u + std::sin(angle) * w);
+        const double least = worstShapeAt(v) + 1e-6;
+        // Few are better, and the place below is found for these only.
+        if (worstShapeWith(v, to) >= least)
+        {
+          tryMove(v, to, least);
+        }
       }
     }
   }
