@@ -44,7 +44,7 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
   { "map", "other scale", "integers at a corrected scale for the number of quads", "4" },
   { "map", "other integers", "integers with room where the embedding failed", "6" },
   { "map", "seamless near the earlier", "the seamless map starts from the earlier one", "1" },
-  { "map", "more weight", "more weight round defects of the seamless or embedded map", "4, 3" },
+  { "map", "more weight", "the map near its defects again, with more weight there", "as long as it helps" },
   { "map", "guides and limit followed",
     "once more with terms for guides and the limit of anisotropy", "1" },
   { "integers", "of earlier ones", "the integers of the earlier map, scale or try", "1" },

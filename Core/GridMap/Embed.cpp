@@ -18,9 +18,6 @@ namespace quadrille
 namespace
 {
 
-/// With more weight round defects, which coarsest layouts need: other integers would be larger there.
-constexpr int kEmbedRounds = 3;
-
 /// Moving a free vertex does not change the signed area of a map, so it tells the size that the integers
 /// were made for, which may differ from the one that was asked.
 double lengthOfUnit(
@@ -69,7 +66,7 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
     locked.problem(lengthOfUnit(mesh, field, integerUv, options.edgeLength));
   const auto snap = [&](const Eigen::VectorXd& y) { return locked.snap(y); };
   FieldUntangling untangled =
-    untangleAlongField(mesh, field, problem, locked.start(), kEmbedRounds, snap, options.progress);
+    untangleAlongField(mesh, field, problem, locked.start(), snap, options.progress);
   followRequests(mesh, field, problem, options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);
   result.newtonSteps = untangled.newtonSteps;

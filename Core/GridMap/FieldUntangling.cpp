@@ -3,8 +3,10 @@
 #include "GridMap/FieldUntangling.h"
 
 #include "Base/TryCount.h"
+#include "Numerics/LocalProblem.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace quadrille
@@ -12,13 +14,19 @@ namespace quadrille
 namespace
 {
 
+/// Newton steps: of 50 real coarse meshes none that needed more ended well.
+constexpr int kMostNewtonSteps = 100;
+/// Of the whole map: what is left after these is a matter of some places.
+constexpr int kStepsOfWhole = 30;
+/// Of the map near such places: so many rings of triangles round each, which have this many times the weight next to
+/// it, and that times as much where it did not help.
+constexpr int kRings = 8;
+/// All of it together may take as much work as the whole map took times this: what takes longer is no matter of places.
+constexpr std::size_t kWorkNearby = 2;
 constexpr double kStiffening = 10;
 /// Rounds with more weight, one after the other, that lessened nothing: in the runs looked at, a third one did not
 /// either.
 constexpr int kIdleRounds = 2;
-/// More defects than this, or than one per so many faces, have a cause that no weight mends.
-constexpr std::size_t kMany = 30;
-constexpr std::size_t kFacesPerDefect = 64;
 constexpr int kRequestSteps = 30;
 /// Of guides against the energy that the map has anyway.
 constexpr double kGuideWeight = 30;
@@ -26,32 +34,26 @@ constexpr double kGuideWeight = 30;
 /// come to rest a little further on.
 constexpr double kAnisotropyStart = 0.85;
 
-/// Multiplies the weights of the faces that touch a defect, or touch one that does.
-void stiffen(const Mesh& mesh, const MapDefects& defects, std::vector<double>& weight)
+/// #V: by how many triangles a vertex is away from these, up to `most`; more than that for all others.
+std::vector<int> ringsFrom(const Mesh& mesh, const std::vector<Index>& vertices, int most)
 {
-  std::vector<bool> near(mesh.vertexCount(), false);
-  for (const Index v : verticesOf(mesh, defects))
+  std::vector<int> ring(mesh.vertexCount(), most + 1);
+  for (const Index v : vertices)
   {
-    near[v] = true;
+    ring[v] = 0;
   }
-  const auto touches = [&](Index f)
+  for (int r = 0; r < most; ++r)
   {
-    const Index* v = &mesh.origin[3 * f];
-    return near[v[0]] || near[v[1]] || near[v[2]];
-  };
-  std::vector<bool> ring = near;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    for (int i = 0; i < 3 && touches(f); ++i)
+    for (Index f = 0; f < mesh.faceCount(); ++f)
     {
-      ring[mesh.origin[3 * f + i]] = true;
+      const Index* v = &mesh.origin[3 * f];
+      for (int i = 0; i < 3 && std::min({ ring[v[0]], ring[v[1]], ring[v[2]] }) == r; ++i)
+      {
+        ring[v[i]] = std::min(ring[v[i]], r + 1);
+      }
     }
   }
-  near = ring;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    weight[f] *= touches(f) ? kStiffening : 1;
-  }
+  return ring;
 }
 
 } // namespace
@@ -64,8 +66,7 @@ UntangleOptions fieldUntangleOptions(const ProgressCallback& progress)
   // Equations without constants let a map shrink to a point; the area term keeps it from that.
   options.areaWeight = 1;
   options.polishSteps = 4;
-  // Of 50 real coarse meshes none that needed more ended well.
-  options.maximumSteps = 100;
+  options.maximumSteps = kMostNewtonSteps;
   options.progress = progress;
   return options;
 }
@@ -73,83 +74,150 @@ UntangleOptions fieldUntangleOptions(const ProgressCallback& progress)
 namespace
 {
 
-/// The same where a bound of work is reached; best: of earlier rounds, if there were some.
-UntangleResult untangleOrTell(const Mesh& mesh, const CrossField& field,
-  const UntangleProblem& problem, const Eigen::VectorXd& start, const UntangleOptions& options,
-  const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
-  const FieldUntangling& best)
+class Untangling
 {
-  try
+public:
+  Untangling(const Mesh& mesh, const CrossField& field, const UntangleProblem& problem,
+    const Snap& snap, const ProgressCallback& progress, int maximumSteps)
+    : mesh_(mesh), field_(field), problem_(problem), snap_(snap), maximumSteps_(maximumSteps),
+      options_(fieldUntangleOptions(progress))
   {
-    return untangle(problem, start, options);
   }
-  catch (const UntanglingSpent& spent)
+
+  FieldUntangling run(const Eigen::VectorXd& start)
   {
-    throw SpentInFaces(failedFacesOf(
-      mesh, best.uv.empty() ? findDefects(mesh, field, snap(spent.y)) : best.defects));
+    options_.maximumSteps = mayTake(kStepsOfWhole);
+    UntangleResult first = ofWhole(start);
+    const std::size_t work = first.work;
+    keepIfBetter(std::move(first));
+    if (best_.defects.none())
+    {
+      return std::move(best_);
+    }
+    mendNearby(kWorkNearby * work);
+    if (best_.defects.none())
+    {
+      countTryLed(Try::MoreWeight);
+      // From a valid map no vertex can change its winding any more: without the weights, until that has converged.
+      options_.polishSteps = options_.maximumSteps = kMostNewtonSteps;
+      keep(ofWhole(best_.y));
+    }
+    return std::move(best_);
   }
-}
+
+private:
+  int mayTake(int steps) const
+  {
+    return maximumSteps_ > 0 ? std::min(steps, maximumSteps_ - best_.newtonSteps) : steps;
+  }
+
+  /// Where the bound of work is reached, that tells how far it came.
+  UntangleResult ofWhole(const Eigen::VectorXd& start) const
+  {
+    try
+    {
+      return untangle(problem_, start, options_);
+    }
+    catch (const UntanglingSpent& spent)
+    {
+      throw SpentInFaces(failedFacesOf(mesh_, findDefects(mesh_, field_, snap_(spent.y))));
+    }
+  }
+
+  void keep(UntangleResult&& result)
+  {
+    best_.newtonSteps += result.steps;
+    best_.uv = snap_(result.y);
+    best_.y = std::move(result.y);
+    best_.defects = findDefects(mesh_, field_, best_.uv);
+  }
+
+  bool keepIfBetter(UntangleResult&& result)
+  {
+    FieldUntangling before = best_;
+    keep(std::move(result));
+    if (before.uv.empty() || best_.defects.count() < before.defects.count())
+    {
+      return true;
+    }
+    before.newtonSteps = best_.newtonSteps;
+    best_ = std::move(before);
+    return false;
+  }
+
+  void mendNearby(std::size_t mostWork)
+  {
+    try
+    {
+      const WorkScope scope(mostWork);
+      double weight = kStiffening;
+      for (int idle = 0; !best_.defects.none() && idle < kIdleRounds;)
+      {
+        options_.maximumSteps = mayTake(kMostNewtonSteps);
+        if (options_.maximumSteps <= 0)
+        {
+          return;
+        }
+        countTry(Try::MoreWeight);
+        const bool isBetter = keepIfBetter(nearby(weight));
+        weight = isBetter ? kStiffening : weight * kStiffening;
+        idle = isBetter ? 0 : idle + 1;
+      }
+    }
+    catch (const WorkSpent&)
+    {
+      if (workLeft() == 0)
+      {
+        throw SpentInFaces(failedFacesOf(mesh_, best_.defects));
+      }
+    }
+  }
+
+  /// The map near its defects again, from its references with so much more weight next to them; all else is held.
+  UntangleResult nearby(double weight) const
+  {
+    const std::vector<int> ring = ringsFrom(mesh_, verticesOf(mesh_, best_.defects), kRings);
+    std::vector<std::uint8_t> isNear(static_cast<std::size_t>(problem_.basis.rows()) / 2, 0);
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      isNear[problem_.triangles[Mesh::face(h)][h % 3]] |= ring[mesh_.origin[h]] <= kRings ? 1 : 0;
+    }
+    LocalProblem local = localProblem(problem_, best_.y, isNear);
+    for (std::size_t t = 0; t < local.triangles.size(); ++t)
+    {
+      const Index f = local.triangles[t];
+      if (f < mesh_.faceCount())
+      {
+        const Index* v = &mesh_.origin[3 * f];
+        local.problem.weight[t] *=
+          std::min({ ring[v[0]], ring[v[1]], ring[v[2]] }) <= 1 ? weight : 1;
+      }
+    }
+    UntangleResult result = untangle(local.problem, fitReferences(local.problem), options_);
+    result.y = local.put(result.y, best_.y);
+    return result;
+  }
+
+  const Mesh& mesh_;
+  const CrossField& field_;
+  const UntangleProblem& problem_;
+  const Snap& snap_;
+  int maximumSteps_;
+  UntangleOptions options_;
+  FieldUntangling best_;
+};
 
 } // namespace
 
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
-  const UntangleProblem& problem, const Eigen::VectorXd& start, int rounds,
-  const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
+  const UntangleProblem& problem, const Eigen::VectorXd& start, const Snap& snap,
   const ProgressCallback& progress, int maximumSteps)
 {
-  FieldUntangling best;
-  UntangleOptions options = fieldUntangleOptions(progress);
-  const int stepsOfAttempt = options.maximumSteps;
-  UntangleProblem stiffened = problem;
-  int idle = 0, kept = 0;
-  const std::size_t many = std::max(kMany, mesh.faceCount() / kFacesPerDefect);
-  for (int i = 0; i <= rounds; ++i)
-  {
-    if (maximumSteps > 0)
-    {
-      options.maximumSteps = std::min(stepsOfAttempt, maximumSteps - best.newtonSteps);
-    }
-    if (options.maximumSteps <= 0)
-    {
-      break;
-    }
-    if (i > 0)
-    {
-      countTry(Try::MoreWeight);
-      stiffen(mesh, best.defects, stiffened.weight);
-    }
-    UntangleResult attempt = untangleOrTell(
-      mesh, field, stiffened, i > 0 ? fitReferences(stiffened) : start, options, snap, best);
-    best.newtonSteps += attempt.steps;
-    if (i > 0 && findDefects(mesh, field, snap(attempt.y)).none())
-    {
-      // From a valid map no vertex can change its winding any more, whatever the weights.
-      attempt = untangle(problem, attempt.y, options);
-      best.newtonSteps += attempt.steps;
-    }
-    std::vector<FixedVec2> uv = snap(attempt.y);
-    MapDefects defects = findDefects(mesh, field, uv);
-    const bool better = i == 0 || defects.count() < best.defects.count();
-    if (better)
-    {
-      best.defects = std::move(defects);
-      best.uv = std::move(uv);
-      best.y = std::move(attempt.y);
-      kept = i;
-    }
-    idle = better ? 0 : idle + 1;
-    if (best.defects.none() || idle >= kIdleRounds || best.defects.count() > many)
-    {
-      break;
-    }
-  }
-  countTryLed(Try::MoreWeight, kept > 0 ? 1 : 0);
-  return best;
+  return Untangling(mesh, field, problem, snap, progress, maximumSteps).run(start);
 }
 
 void followRequests(const Mesh& mesh, const CrossField& field, const UntangleProblem& problem,
-  double limit, const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
-  const ProgressCallback& progress, FieldUntangling& untangling)
+  double limit, const Snap& snap, const ProgressCallback& progress, FieldUntangling& untangling)
 {
   const bool hasGuides = !problem.offAxis.empty();
   if ((limit == 0 && !hasGuides) || !untangling.defects.none())

@@ -25,6 +25,9 @@ public:
   FailedFaces faces;
 };
 
+/// Rounds unknowns to a map, #H.
+using Snap = std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>;
+
 struct FieldUntangling
 {
   std::vector<FixedVec2> uv; ///< of the attempt with the fewest defects
@@ -33,21 +36,19 @@ struct FieldUntangling
   int newtonSteps = 0;
 };
 
-/// From the start. Seams fix the winding of a vertex modulo 4 only, so a start that is inverted there
-/// may end with a wrong one: then the references are fitted again with more weight round it [stiffening of
-/// Bommes et al. 2009], at most `rounds` times, until it winds rightly from the start. snap rounds
-/// unknowns to a map. The first triangles of the problem are the faces. maximumSteps: of Newton, of all attempts; 0 for
-/// no bound but that of each. Throws SpentInFaces where a bound of work is reached.
+/// From the start. Seams fix the winding of a vertex modulo 4 only, so a start that is inverted there may end with a
+/// wrong one: then the references are fitted again near it, with more weight round it [stiffening of Bommes et al.
+/// 2009] and all else held, until it winds rightly from the start. The first triangles of the problem are the faces.
+/// maximumSteps: of Newton, of all attempts; 0 for no bound but that of each. Throws SpentInFaces where a bound of work
+/// is reached.
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
-  const UntangleProblem& problem, const Eigen::VectorXd& start, int rounds,
-  const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
+  const UntangleProblem& problem, const Eigen::VectorXd& start, const Snap& snap,
   const ProgressCallback& progress, int maximumSteps = 0);
 
 /// Newton steps from a map without defects that bring the isolines along the guides of the field, and the ratio of the
 /// two stretches of the faces towards `limit`, >= 1 or 0 for none; `untangling` changes only where the new map has no
 /// defects either. The first triangles of the problem are the faces. Without guides and limit nothing is done.
 void followRequests(const Mesh& mesh, const CrossField& field, const UntangleProblem& problem,
-  double limit, const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
-  const ProgressCallback& progress, FieldUntangling& untangling);
+  double limit, const Snap& snap, const ProgressCallback& progress, FieldUntangling& untangling);
 
 } // namespace quadrille

@@ -18,8 +18,6 @@ namespace quadrille
 namespace
 {
 
-constexpr int kSeamlessRounds = 4;
-
 void failSeamless(const Mesh& mesh, StatusCode code, const std::string& message,
   const MapDefects& defects, SeamlessResult& result)
 {
@@ -169,8 +167,8 @@ SeamlessResult computeSeamlessMap(
   }
   const auto snap = [&](const Eigen::VectorXd& y)
   { return snapScaled(space, y, options.targetQuads); };
-  FieldUntangling untangled = untangleAlongField(mesh, field, space.problem(), start,
-    kSeamlessRounds, snap, options.progress, options.maximumSteps);
+  FieldUntangling untangled = untangleAlongField(
+    mesh, field, space.problem(), start, snap, options.progress, options.maximumSteps);
   followRequests(
     mesh, field, space.problem(), options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);

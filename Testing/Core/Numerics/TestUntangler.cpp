@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
 #include "Numerics/IsotropicEnergy.h"
+#include "Numerics/LocalProblem.h"
 #include "Numerics/ReducedTriangles.h"
 #include "Numerics/Untangler.h"
 
@@ -10,9 +11,13 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <random>
+#include <vector>
 
 using namespace quadrille;
 
@@ -66,6 +71,14 @@ struct Square
     }
   }
 };
+
+/// To count what is inverted as it is.
+UntangleOptions stepless()
+{
+  UntangleOptions options;
+  options.maximumSteps = 0;
+  return options;
+}
 
 Eigen::VectorXd randomVector(Eigen::Index size, double low, double high, int seed)
 {
@@ -330,6 +343,68 @@ TEST(Untangler, RefusesWhatIsNotFiniteOrDoesNotFit)
   start[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(untangle(square.problem, start, UntangleOptions()), InvalidInput);
   EXPECT_THROW(untangle(square.problem, Eigen::VectorXd::Zero(1), UntangleOptions()), InvalidInput);
+}
+
+/// Points of the square at most `distance` from the middle, along either axis.
+std::vector<std::uint8_t> nearMiddle(int n, int distance)
+{
+  std::vector<std::uint8_t> near;
+  for (int p = 0; p < (n + 1) * (n + 1); ++p)
+  {
+    const int i = p % (n + 1), j = p / (n + 1);
+    near.push_back(std::max(std::abs(i - n / 2), std::abs(j - n / 2)) <= distance ? 1 : 0);
+  }
+  return near;
+}
+
+TEST(LocalProblem, MendsAPlaceAndHoldsTheRest)
+{
+  const int n = 12;
+  const Square square(n);
+  // The rest is not where the whole would have it, and stays so.
+  Eigen::VectorXd bent = square.inside + randomVector(square.inside.size(), -0.05, 0.05, 1);
+  const std::vector<std::uint8_t> moved = nearMiddle(n, 1), near = nearMiddle(n, 2);
+  const LocalProblem middle = localProblem(square.problem, bent, moved);
+  ASSERT_EQ(middle.unknowns.size(), 2u * 3 * 3);
+  const Eigen::VectorXd tangled = middle.put(Eigen::VectorXd::Zero(18), bent);
+  ASSERT_FALSE(untangle(square.problem, tangled, stepless()).inverted.empty());
+
+  const LocalProblem local = localProblem(square.problem, tangled, near);
+  EXPECT_EQ(local.unknowns.size(), 2u * 5 * 5);
+  // The cells between the points near and those round them.
+  EXPECT_EQ(local.triangles.size(), 2u * 6 * 6 - 2);
+  const UntangleResult result =
+    untangle(local.problem, fitReferences(local.problem), UntangleOptions());
+  EXPECT_TRUE(result.inverted.empty());
+  const Eigen::VectorXd mended = local.put(result.y, tangled);
+  EXPECT_TRUE(untangle(square.problem, mended, stepless()).inverted.empty());
+  std::vector<std::uint8_t> isFree(static_cast<std::size_t>(bent.size()), 0);
+  for (const Index unknown : local.unknowns)
+  {
+    isFree[unknown] = 1;
+  }
+  for (Eigen::Index i = 0; i < bent.size(); ++i)
+  {
+    EXPECT_TRUE(isFree[static_cast<std::size_t>(i)] != 0 || mended[i] == bent[i]) << i;
+  }
+}
+
+TEST(LocalProblem, OfAllPointsIsTheWhole)
+{
+  const Square square(6);
+  const Eigen::VectorXd y = square.inside + randomVector(square.inside.size(), -1, 1, 2);
+  const LocalProblem local = localProblem(square.problem, y, nearMiddle(6, 6));
+  // But for those in two corners, which nothing moves.
+  EXPECT_EQ(local.triangles.size() + 2, square.problem.triangles.size());
+  EXPECT_LT((fitReferences(local.problem) - square.inside).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(LocalProblem, RefusesWhatDoesNotFit)
+{
+  const Square square(3);
+  EXPECT_THROW(localProblem(square.problem, square.inside, nearMiddle(4, 1)), InvalidInput);
+  EXPECT_THROW(
+    localProblem(square.problem, Eigen::VectorXd::Zero(1), nearMiddle(3, 1)), InvalidInput);
 }
 
 TEST(Untangler, SameBytesEveryTime)
