@@ -3,7 +3,6 @@
 #include "Evaluation/QuadPlaces.h"
 
 #include "Base/Lists.h"
-#include "Mesh/Distance.h"
 #include "Requests/Guides.h"
 
 #include <algorithm>
@@ -15,23 +14,32 @@ namespace quadrille
 namespace
 {
 
-/// Weights of the corners in the plane of the triangle; a place on it has weights from 0 to 1.
-Vector3 weightsIn(const std::array<Vector3, 3>& corners, const Vector3& p)
+TriangleList halvesOf(const QuadMesh& mesh)
 {
-  const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-  const double area = normal.squaredNorm();
-  if (!(area > 0))
+  TriangleList list;
+  list.points = mesh.points;
+  for (const std::array<Index, 4>& quad : mesh.quads)
   {
-    return Vector3::Constant(1.0 / 3);
+    list.corners.push_back({ quad[0], quad[1], quad[2] });
+    list.corners.push_back({ quad[0], quad[2], quad[3] });
   }
-  Vector3 weights;
-  for (int i = 0; i < 3; ++i)
+  return list;
+}
+
+TriangleList edgesOf(const QuadMesh& mesh)
+{
+  TriangleList list;
+  list.points = mesh.points;
+  for (const std::array<Index, 4>& quad : mesh.quads)
   {
-    const Vector3& a = corners[static_cast<std::size_t>((i + 1) % 3)];
-    const Vector3& b = corners[static_cast<std::size_t>((i + 2) % 3)];
-    weights[i] = std::clamp(normal.dot((a - p).cross(b - p)) / area, 0.0, 1.0);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const auto [a, b] = std::minmax(quad[i], quad[(i + 1) % 4]);
+      list.corners.push_back({ a, b, b });
+    }
   }
-  return weights / std::max(weights.sum(), 1e-300);
+  sortUnique(list.corners);
+  return list;
 }
 
 } // namespace
@@ -83,7 +91,7 @@ std::optional<Index> ReachedValences::nearestOf(int valence, const Vector3& p) c
 
 //------------------------------------------------------------------------------
 NearestQuads::NearestQuads(const QuadMesh& mesh)
-  : mesh_(mesh), edgeLengthRound_(mesh.points.size(), 0)
+  : mesh_(mesh), halves_(halvesOf(mesh)), edgeLengthRound_(mesh.points.size(), 0)
 {
   std::vector<int> quadsRound(mesh.points.size(), 0);
   for (const std::array<Index, 4>& quad : mesh.quads)
@@ -103,46 +111,25 @@ NearestQuads::NearestQuads(const QuadMesh& mesh)
   {
     edgeLengthRound_[p] /= std::max(quadsRound[p], 1);
   }
-  std::vector<BoxTree::Box> boxes(2 * mesh.quads.size());
-  for (Index i = 0; i < boxes.size(); ++i)
-  {
-    const std::array<Vector3, 3> corner = triangle(i);
-    boxes[i] = { corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),
-      corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]) };
-  }
-  tree_ = BoxTree(boxes, 1);
-}
-
-/// 0 1 2 and 0 2 3 of a quad.
-std::array<Vector3, 3> NearestQuads::triangle(Index i) const
-{
-  const std::array<Index, 4>& quad = mesh_.quads[i / 2];
-  const std::size_t second = i % 2 == 0 ? 1 : 2;
-  return { mesh_.points[quad[0]], mesh_.points[quad[second]], mesh_.points[quad[second + 1]] };
 }
 
 std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
 {
-  const auto placeOn = [&](Index i)
-  {
-    const std::array<Vector3, 3> corner = triangle(i);
-    return nearestOnTriangle(p, corner[0], corner[1], corner[2]);
-  };
-  const Index nearest = tree_.nearest(p, [&](Index i) { return (placeOn(i) - p).squaredNorm(); });
-  if (nearest == kInvalidIndex)
+  const auto nearest = halves_.at(p);
+  if (!nearest)
   {
     return std::nullopt;
   }
   Place place;
-  place.quad = nearest / 2;
-  place.point = placeOn(nearest);
-  const bool isSecond = nearest % 2 != 0;
+  place.quad = nearest->triangle / 2;
+  place.point = nearest->point;
+  const bool isSecond = nearest->triangle % 2 != 0;
   const std::array<Index, 4>& quad = mesh_.quads[place.quad];
   std::array<Vector3, 4> corners;
   std::transform(
     quad.begin(), quad.end(), corners.begin(), [this](Index i) { return mesh_.points[i]; });
   // Coordinates in the unit square, where the corners are (0, 0), (1, 0), (1, 1), (0, 1).
-  const Vector3 weights = weightsIn(triangle(nearest), place.point);
+  const std::array<double, 3>& weights = nearest->weights;
   const double u = isSecond ? weights[1] : weights[1] + weights[2];
   const double v = isSecond ? weights[1] + weights[2] : weights[2];
   const Vector3 alongU = (1 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);
@@ -155,38 +142,12 @@ std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
 }
 
 //------------------------------------------------------------------------------
-NearestEdges::NearestEdges(const QuadMesh& mesh) : mesh_(mesh)
-{
-  for (const std::array<Index, 4>& quad : mesh.quads)
-  {
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      const Index a = quad[i];
-      const Index b = quad[(i + 1) % 4];
-      edges_.push_back({ std::min(a, b), std::max(a, b) });
-    }
-  }
-  sortUnique(edges_);
-  std::vector<BoxTree::Box> boxes;
-  for (const auto& [a, b] : edges_)
-  {
-    boxes.push_back(
-      { mesh.points[a].cwiseMin(mesh.points[b]), mesh.points[a].cwiseMax(mesh.points[b]) });
-  }
-  tree_ = BoxTree(boxes, 1);
-}
+NearestEdges::NearestEdges(const QuadMesh& mesh) : edges_(edgesOf(mesh)) {}
 
 std::optional<double> NearestEdges::distance(const Vector3& p) const
 {
-  const auto to = [&](Index i)
-  { return distanceToSegment(p, mesh_.points[edges_[i][0]], mesh_.points[edges_[i][1]]); };
-  const Index nearest = tree_.nearest(p,
-    [&](Index i)
-    {
-      const double d = to(i);
-      return d * d;
-    });
-  return nearest == kInvalidIndex ? std::nullopt : std::optional<double>(to(nearest));
+  const auto nearest = edges_.at(p);
+  return nearest ? std::optional<double>(nearest->distance) : std::nullopt;
 }
 
 } // namespace quadrille

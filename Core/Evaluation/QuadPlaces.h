@@ -5,6 +5,7 @@
 
 #include "Extraction/Extraction.h"
 #include "Mesh/BoxTree.h"
+#include "Mesh/NearestTriangle.h"
 
 #include <array>
 #include <map>
@@ -60,10 +61,8 @@ public:
   std::optional<Place> at(const Vector3& p) const;
 
 private:
-  std::array<Vector3, 3> triangle(Index i) const;
-
   const QuadMesh& mesh_;
-  BoxTree tree_;                        ///< of two triangles a quad
+  NearestTriangle halves_;              ///< 0 1 2 and 0 2 3 of each quad
   std::vector<double> edgeLengthRound_; ///< #points, see Place
 };
 
@@ -76,9 +75,7 @@ public:
   std::optional<double> distance(const Vector3& p) const;
 
 private:
-  const QuadMesh& mesh_;
-  std::vector<std::array<Index, 2>> edges_;
-  BoxTree tree_;
+  NearestTriangle edges_;
 };
 
 } // namespace quadrille

@@ -50,4 +50,14 @@ BoxTree::BoxTree(const std::vector<Box>& boxes, int threads)
   }
 }
 
+std::size_t BoxTree::bytes() const
+{
+  std::size_t bytes = items_.size() * sizeof(Index);
+  for (const std::vector<Box>& level : levels_)
+  {
+    bytes += level.size() * sizeof(Box);
+  }
+  return bytes;
+}
+
 } // namespace quadrille

@@ -34,11 +34,14 @@ public:
   BoxTree(const std::vector<Box>& boxes, int threads);
 
   /// The item with the least squaredDistance(item), of equal ones that with the lowest id; kInvalidIndex where there
-  /// are none. What squaredDistance says must not be less than the distance to the item's box.
+  /// is none within a distance. What squaredDistance says must not be less than the distance to the item's box;
+  /// infinite: the item does not count.
   template <class SquaredDistance>
-  Index nearest(const Vector3& p, const SquaredDistance& squaredDistance) const
+  Index nearest(const Vector3& p, const SquaredDistance& squaredDistance,
+    double within = std::numeric_limits<double>::infinity()) const
   {
     Nearest best;
+    best.squared = within * within;
     if (!levels_.empty())
     {
       search(p, levels_.size() - 1, 0, squaredDistance, best);
@@ -46,13 +49,26 @@ public:
     return best.item;
   }
 
+  /// Calls visit(item) for all that may be no farther away, and for some others, in the order of the curve.
+  template <class Visit>
+  void visitWithin(const Vector3& p, double distance, const Visit& visit) const
+  {
+    if (!levels_.empty())
+    {
+      visitBelow(p, distance * distance, levels_.size() - 1, 0, visit);
+    }
+  }
+
+  std::size_t bytes() const;
+
 private:
   /// Boxes, and items, below one box.
-  static constexpr std::size_t kBoxChildren = 8;
+  static constexpr std::size_t kBoxChildren = 4;
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
 
   struct Nearest
   {
-    double squared = std::numeric_limits<double>::infinity();
+    double squared = kFar;
     Index item = kInvalidIndex;
   };
 
@@ -66,7 +82,8 @@ private:
       for (std::size_t i = begin; i < std::min(begin + kBoxChildren, items_.size()); ++i)
       {
         const double squared = squaredDistance(items_[i]);
-        if (squared < best.squared || (squared == best.squared && items_[i] < best.item))
+        const bool isFirst = squared == best.squared && items_[i] < best.item && squared < kFar;
+        if (squared < best.squared || isFirst)
         {
           best = { squared, items_[i] };
         }
@@ -89,6 +106,22 @@ private:
       {
         search(p, level - 1, order[i].second, squaredDistance, best);
       }
+    }
+  }
+
+  template <class Visit>
+  void visitBelow(
+    const Vector3& p, double squared, std::size_t level, std::size_t box, const Visit& visit) const
+  {
+    if (!(levels_[level][box].squaredDistance(p) <= squared))
+    {
+      return;
+    }
+    const std::size_t count = level == 0 ? items_.size() : levels_[level - 1].size();
+    const std::size_t begin = kBoxChildren * box;
+    for (std::size_t i = begin; i < std::min(begin + kBoxChildren, count); ++i)
+    {
+      level == 0 ? visit(items_[i]) : visitBelow(p, squared, level - 1, i, visit);
     }
   }
 

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "Base/Types.h"
+#include "Mesh/BoxTree.h"
 #include "Mesh/Mesh.h"
 
 #include <array>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,7 +24,7 @@ struct TriangleList
 
 TriangleList trianglesOf(const Mesh& mesh);
 
-/// A tree of boxes, of Eigen's KdBVH. Several threads may ask; the answers depend on the triangles alone.
+/// Several threads may ask; the answers depend on the triangles alone.
 class NearestTriangle
 {
 public:
@@ -37,9 +37,6 @@ public:
   };
 
   explicit NearestTriangle(TriangleList triangles);
-  ~NearestTriangle();
-  NearestTriangle(const NearestTriangle&) = delete;
-  NearestTriangle& operator=(const NearestTriangle&) = delete;
 
   /// None where there is no triangle within the distance. facing: only triangles whose normal is less than a right
   /// angle from it count, such that places on a thin wall do not find the other side; of segments (a, b, a) those that
@@ -54,10 +51,8 @@ public:
   std::size_t bytes() const;
 
 private:
-  struct Tree;
-
   TriangleList triangles_;
-  std::unique_ptr<Tree> tree_;
+  BoxTree tree_;
 };
 
 } // namespace quadrille

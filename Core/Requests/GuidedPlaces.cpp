@@ -3,7 +3,6 @@
 #include "Requests/GuidedPlaces.h"
 
 #include "Base/Progress.h"
-#include "Mesh/Distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -195,6 +194,24 @@ private:
   std::vector<GuidedPlace> found_;
 };
 
+/// A single point where the line is none.
+TriangleList segmentsOf(const std::vector<Vector3>& line)
+{
+  TriangleList list{ line, {} };
+  for (Index i = 0; i + 1 < line.size(); ++i)
+  {
+    if (line[i] != line[i + 1])
+    {
+      list.corners.push_back({ i, i + 1, i + 1 });
+    }
+  }
+  if (list.corners.empty())
+  {
+    list.corners.push_back({ 0, 0, 0 });
+  }
+  return list;
+}
+
 } // namespace
 
 GuidedPlace guidedPolygon(
@@ -223,43 +240,15 @@ std::vector<GuidedPlace> guidedAlong(const SurfaceInput& input, const SurfacePla
 }
 
 //------------------------------------------------------------------------------
-NearestSegments::NearestSegments(const std::vector<Vector3>& line)
-{
-  std::vector<BoxTree::Box> boxes;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i)
-  {
-    if (line[i] != line[i + 1])
-    {
-      segments_.push_back({ line[i], line[i + 1] });
-    }
-  }
-  if (segments_.empty())
-  {
-    segments_.push_back({ line.front(), line.front() });
-  }
-  for (const auto& [a, b] : segments_)
-  {
-    boxes.push_back({ a.cwiseMin(b), a.cwiseMax(b) });
-  }
-  tree_ = BoxTree(boxes, 1);
-}
+NearestSegments::NearestSegments(const std::vector<Vector3>& line) : segments_(segmentsOf(line)) {}
 
 NearestSegments::Place NearestSegments::at(const Vector3& p) const
 {
-  const Index nearest = tree_.nearest(p,
-    [&](Index i)
-    {
-      const double distance = distanceToSegment(p, segments_[i][0], segments_[i][1]);
-      return distance * distance;
-    });
-  const auto& [a, b] = segments_[nearest];
-  const double squared = (b - a).squaredNorm();
-  const double t = squared > 0 ? std::clamp((p - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
-  Place place;
-  place.point = a + t * (b - a);
-  place.distance = (p - place.point).norm();
-  place.direction = (b - a).stableNormalized();
-  return place;
+  const NearestTriangle::Place nearest = *segments_.at(p);
+  const TriangleList& list = segments_.triangles();
+  const std::array<Index, 3>& ends = list.corners[nearest.triangle];
+  return { nearest.distance, nearest.point,
+    (list.points[ends[1]] - list.points[ends[0]]).stableNormalized() };
 }
 
 } // namespace quadrille

@@ -3,6 +3,7 @@
 /// Where guides ask for which direction, to compare the quads with.
 #pragma once
 
+#include "Mesh/NearestTriangle.h"
 #include "Requests/SurfacePlaces.h"
 
 #include <vector>
@@ -46,8 +47,7 @@ public:
   Place at(const Vector3& p) const;
 
 private:
-  std::vector<std::array<Vector3, 2>> segments_;
-  BoxTree tree_;
+  NearestTriangle segments_;
 };
 
 } // namespace quadrille

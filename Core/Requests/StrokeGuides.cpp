@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/StrokeGuides.h"
 
-#include "Mesh/BoxTree.h"
-#include "Mesh/Distance.h"
+#include "Mesh/NearestTriangle.h"
 #include "Mesh/Sizing.h"
 #include "Requests/MeshPaths.h"
 
@@ -62,41 +61,34 @@ std::vector<PathParts> partsOf(
   return result;
 }
 
-/// Finds directions of the parts of a path.
-class NearestPart
+/// Those that lead anywhere, as segments.
+TriangleList segmentsOf(const PathParts& parts)
 {
-public:
-  explicit NearestPart(PathParts parts) : parts_(std::move(parts))
+  TriangleList list;
+  for (const PathPart& part : parts)
   {
-    parts_.erase(std::remove_if(parts_.begin(), parts_.end(),
-                   [](const PathPart& part) { return part.from == part.to; }),
-      parts_.end());
-    std::vector<BoxTree::Box> boxes;
-    boxes.reserve(parts_.size());
-    for (const PathPart& part : parts_)
+    if (part.from != part.to)
     {
-      boxes.push_back({ part.from.cwiseMin(part.to), part.from.cwiseMax(part.to) });
+      const auto first = static_cast<Index>(list.points.size());
+      list.points.insert(list.points.end(), { part.from, part.to });
+      list.corners.push_back({ first, first + 1, first + 1 });
     }
-    tree_ = BoxTree(boxes, 1);
   }
+  return list;
+}
 
-  /// Of the nearest part, where that is within the radius; else zero.
-  Vector3 direction(const Vector3& p, double radius) const
+/// Of the nearest segment, where that is within the radius; else zero.
+Vector3 directionNear(const NearestTriangle& segments, const Vector3& p, double radius)
+{
+  const auto nearest = segments.at(p, Vector3::Zero(), radius);
+  if (!nearest)
   {
-    const auto distance = [&](Index i)
-    { return distanceToSegment(p, parts_[i].from, parts_[i].to); };
-    const Index nearest = tree_.nearest(p, [&](Index i) { return distance(i) * distance(i); });
-    if (nearest == kInvalidIndex || distance(nearest) > radius)
-    {
-      return Vector3::Zero();
-    }
-    return (parts_[nearest].to - parts_[nearest].from).stableNormalized();
+    return Vector3::Zero();
   }
-
-private:
-  PathParts parts_;
-  BoxTree tree_;
-};
+  const TriangleList& list = segments.triangles();
+  const std::array<Index, 3>& ends = list.corners[nearest->triangle];
+  return (list.points[ends[1]] - list.points[ends[0]]).stableNormalized();
+}
 
 /// Directions of faces under one stroke and round it.
 std::map<Index, Vector3> directionsOf(
@@ -116,7 +108,7 @@ std::map<Index, Vector3> directionsOf(
     seen.insert(face);
     front.insert(face);
   }
-  const NearestPart nearest(parts);
+  const NearestTriangle segments(segmentsOf(parts));
   while (!front.empty())
   {
     const Index face = *front.begin();
@@ -129,7 +121,7 @@ std::map<Index, Vector3> directionsOf(
         continue;
       }
       const double reach = radius + 0.25 * edgeLength * sizeAt(mesh, mesh.origin[3 * other]);
-      const Vector3 direction = nearest.direction(mesh.middleOfFace(other), reach);
+      const Vector3 direction = directionNear(segments, mesh.middleOfFace(other), reach);
       if (!direction.isZero(0))
       {
         directions[other] = direction;
