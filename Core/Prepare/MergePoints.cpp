@@ -91,17 +91,6 @@ std::vector<OpenEdge> sortedByPlace(
 
 } // namespace
 
-bool wouldMerge(const Mesh& mesh, const std::vector<Index>& halfEdges)
-{
-  if (halfEdges.empty())
-  {
-    return false;
-  }
-  const std::vector<OpenEdge> edges = sortedByPlace(mesh, halfEdges, placesOf(mesh, halfEdges));
-  return std::adjacent_find(edges.begin(), edges.end(),
-           [](const OpenEdge& a, const OpenEdge& b) { return a.place == b.place; }) != edges.end();
-}
-
 std::size_t mergeOpenEdges(Mesh& mesh, const EdgeRuns& runs)
 {
   const std::vector<Index> halfEdges = openHalfEdges(runs);

@@ -13,7 +13,4 @@ namespace quadrille
 /// have a vertex twice afterwards.
 std::size_t mergeOpenEdges(Mesh& mesh, const EdgeRuns& runs);
 
-/// Whether mergeOpenEdges would join anything; halfEdges: of all open edges.
-bool wouldMerge(const Mesh& mesh, const std::vector<Index>& halfEdges);
-
 } // namespace quadrille

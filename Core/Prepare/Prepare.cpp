@@ -14,7 +14,6 @@
 #include "Mesh/Sizing.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/Triangulate.h"
-#include "Prepare/CleanSurface.h"
 #include "Prepare/DegenerateFaces.h"
 #include "Prepare/Repair.h"
 #include "Requests/Guides.h"
@@ -142,7 +141,7 @@ PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& optio
   surface.mesh.position.swap(input.points);
   input.polygonOffsets.clear();
   input.polygonPoints.clear();
-  double repairSeconds = watch.lap();
+  const double repairSeconds = watch.lap();
 
   report(options.progress, 0.2, "Ordering the surface");
   orderSurface(surface, options.threads);
@@ -150,17 +149,10 @@ PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& optio
   const double orderSeconds = watch.lap();
 
   report(options.progress, 0.5, "Connecting the surface");
-  const bool isClean = connectCleanSurface(surface, options.threads);
-  const double connectivitySeconds = watch.lap();
-  if (!isClean)
-  {
-    surface.mesh.twin.clear();
-    repairSurface(surface,
-      EdgeRuns(surface.mesh.origin, surface.mesh.vertexCount(), options.threads), options.threads);
-    poll();
-    requireFaces(surface);
-    repairSeconds += watch.lap();
-  }
+  repairSurface(surface, EdgeRuns(surface.mesh.origin, surface.mesh.vertexCount(), options.threads),
+    options.threads);
+  poll();
+  requireFaces(surface);
 
   measureBox(surface, options.threads);
   mendCaps(surface, options.threads);
@@ -172,7 +164,7 @@ PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& optio
   surface.hash = contentHash(surface.mesh, options.threads);
   report(options.progress, 1, "Surface prepared");
   surface.seconds = { { "repair", repairSeconds }, { "order", orderSeconds },
-    { "connectivity", connectivitySeconds + watch.lap() } };
+    { "connectivity", watch.lap() } };
   return surface;
 }
 

@@ -384,4 +384,21 @@ TEST(Repair, TextNamesWhatChanged)
   EXPECT_EQ(report.text(), "12 duplicate faces removed, 1 non-manifold edge split");
 }
 
+TEST(Repair, AFanOfAnyLengthTakesNoLongerThanItsFaces)
+{
+  // Half-edges round the tip ascend all the way; looking one way only, each would look at all that follow.
+  constexpr Index kFaces = 200000;
+  std::vector<Vector3> points{ Vector3(0, 0, 1) };
+  std::vector<std::vector<Index>> polygons;
+  for (Index i = 0; i < kFaces; ++i)
+  {
+    const double angle = 2 * kPi * i / kFaces;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    polygons.push_back({ 0, 1 + i, 1 + (i + 1) % kFaces });
+  }
+  const PreparedSurface surface = prepare(makeInput(points, polygons));
+  EXPECT_EQ(surface.mesh.faceCount(), kFaces);
+  EXPECT_EQ(surface.components, 1U);
+}
+
 } // namespace quadrille
