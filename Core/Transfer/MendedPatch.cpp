@@ -49,15 +49,6 @@ bool collectCorners(const Mesh& mesh, Index corner, std::vector<Index>& corners,
 
 } // namespace
 
-void MendedPatch::begin(const std::vector<Index>& faces)
-{
-  faces_ = faces;
-  for (const Index f : faces_)
-  {
-    inPatch_[f] = 1;
-  }
-}
-
 void MendedPatch::release()
 {
   for (const Index f : faces_)

@@ -49,8 +49,6 @@ public:
   {
   }
 
-  /// Of these faces, ascending.
-  void begin(const std::vector<Index>& faces);
   /// Of a face and those that are not positive next to it, and so on.
   void beginAt(Index seed, std::size_t maximumFaces);
   /// By all faces that touch one of the patch, where it does not have more already.
