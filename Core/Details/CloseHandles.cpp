@@ -135,7 +135,7 @@ std::vector<std::size_t> closeHandles(PreparedSurface& surface,
   if (!cuts.empty())
   {
     surface.repair.closedHandles += cuts.size();
-    orderAfterChanges(surface, cuts.size(), threads);
+    orderSurface(surface, threads);
     surface.hash = contentHash(surface.mesh, threads);
   }
   return closed;

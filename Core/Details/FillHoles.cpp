@@ -94,7 +94,7 @@ std::vector<std::size_t> fillHoles(PreparedSurface& surface, const std::vector<H
   if (!filled.empty())
   {
     surface.repair.filledHoles += filled.size();
-    orderAfterChanges(surface, filled.size(), 1);
+    orderSurface(surface, 1);
     surface.hash = contentHash(mesh, 1);
   }
   return filled;

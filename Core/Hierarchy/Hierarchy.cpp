@@ -14,7 +14,7 @@
 #include "Hierarchy/IntermediateLevel.h"
 #include "Hierarchy/LevelTerms.h"
 #include "Hierarchy/LogBuilder.h"
-#include "Hierarchy/SharedStars.h"
+#include "Hierarchy/StarCache.h"
 #include "Hierarchy/UniformDecimation.h"
 #include "Hierarchy/VertexScales.h"
 #include "Mesh/Sizing.h"
@@ -93,12 +93,8 @@ class Redecimation::Implementation
 {
 public:
   Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
-    : intermediate_(fine, fineHash, options, hierarchy_), stars_(options.stars), own_(options.own)
+    : intermediate_(fine, fineHash, options, hierarchy_)
   {
-    if (!stars_)
-    {
-      shareNone(fine);
-    }
   }
 
   IntermediateLevel& intermediate() { return intermediate_; }
@@ -107,14 +103,6 @@ public:
   bool allows(const HierarchyOptions& options) const
   {
     return options.targetEdgeLength == intermediate_.edgeLength();
-  }
-
-  bool follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
-    const HierarchyOptions& options)
-  {
-    fineDefect_.clear();
-    shareNone(fine);
-    return intermediate_.follow(fine, fineHash, names, options);
   }
 
   const Hierarchy& update(const HierarchyOptions& options)
@@ -134,19 +122,12 @@ public:
   }
 
 private:
-  void shareNone(const Mesh& fine)
-  {
-    stars_ = std::make_shared<SharedStars>();
-    own_ = { fine.vertexCount(), {}, 0 };
-  }
-
   void decimate(const HierarchyOptions& options)
   {
     const Level& level = hierarchy_.intermediate;
     DecimationMesh mesh(intermediate_.mesh());
     BudgetOptions budget = budgetOptions(level, options);
-    const std::vector<Index> names = stars_->namesOf(level, own_);
-    budget.names = &names; // which are the same on the level that vertices came back to
+    budget.names = &level.fineVertex; // the same on the level that vertices came back to
     if (options.cost == DecimationCost::GaussianMemory)
     {
       budget.inputDefect = inputDefects(level);
@@ -158,7 +139,7 @@ private:
       budget.keepVertices.insert(budget.keepVertices.end(), corners.begin(), corners.end());
     }
     thinOutFurther(level, options.mostOrdered, budget, mesh, hierarchy_.log);
-    BudgetResult result = decimateToBudget(mesh, budget, stars_->cacheFor(options.cost));
+    BudgetResult result = decimateToBudget(mesh, budget, cacheFor(options.cost));
     hierarchy_.notice = std::move(result.notice);
     hierarchy_.cache = result.cache;
     hierarchy_.curvatureShift = result.curvatureShift / options.targetEdgeLength;
@@ -166,6 +147,17 @@ private:
     hierarchy_.log.append(inFineTerms(result.records.bytes(), level), result.records.collapses(),
       result.records.flips());
     hierarchy_.coarse = inFineTerms(mesh.extract(), level);
+  }
+
+  /// Empty where the stars before were those of another cost.
+  StarCache& cacheFor(DecimationCost cost)
+  {
+    if (costOfCache_ != cost)
+    {
+      cache_.clear();
+      costOfCache_ = cost;
+    }
+    return cache_;
   }
 
   std::vector<float> inputDefects(const Level& level)
@@ -185,8 +177,8 @@ private:
   Hierarchy hierarchy_;
   IntermediateLevel intermediate_;
   std::vector<float> fineDefect_; ///< for GaussianMemory, when first needed
-  std::shared_ptr<SharedStars> stars_;
-  OwnVertices own_;
+  StarCache cache_;
+  DecimationCost costOfCache_ = DecimationCost::Gaussian;
 };
 
 Redecimation::Redecimation(
@@ -198,12 +190,6 @@ Redecimation::Redecimation(
 Redecimation::~Redecimation() = default;
 Redecimation::Redecimation(Redecimation&&) noexcept = default;
 Redecimation& Redecimation::operator=(Redecimation&&) noexcept = default;
-
-bool Redecimation::follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
-  const HierarchyOptions& options)
-{
-  return implementation_->follow(fine, fineHash, names, options);
-}
 
 bool Redecimation::allows(const HierarchyOptions& options) const
 {

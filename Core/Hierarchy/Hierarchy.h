@@ -5,9 +5,7 @@
 
 #include "Base/Progress.h"
 #include "Hierarchy/DecimationLog.h"
-#include "Hierarchy/OwnVertices.h"
 #include "Mesh/Mesh.h"
-#include "Mesh/NamesBefore.h"
 #include "Requests/Guides.h"
 
 #include <memory>
@@ -35,8 +33,6 @@ constexpr double kCurvatureShift = 0.5;
 constexpr Index kLeastCoarseVertices = 300;
 constexpr Index kMostCoarseVertices = 4000;
 
-class SharedStars;
-
 struct HierarchyOptions
 {
   double targetEdgeLength =
@@ -62,10 +58,6 @@ struct HierarchyOptions
   bool isExact = false;
   /// The finest mesh is known to have one component, which saves looking for small ones; the result is the same.
   bool isConnected = false;
-  /// For Redecimation: where it remembers what removals cost, with others of the same s, and the vertices that these do
-  /// not have. Null: it alone.
-  std::shared_ptr<SharedStars> stars;
-  OwnVertices own;
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
@@ -117,12 +109,6 @@ public:
   Redecimation(Redecimation&&) noexcept;
   Redecimation& operator=(Redecimation&&) noexcept;
 
-  /// Takes the levels along when few places of the finest mesh have changed: they are then those of `fine`. Phase 1
-  /// must have kept no vertices. What it would do anew near the changed places is done there alone, so the levels are
-  /// as good as new ones and not the same. options: threads and isConnected count. False where too many
-  /// vertices would have to come back; this object is of no use then. Cancelled leaves it so, too.
-  bool follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
-    const HierarchyOptions& options);
   /// Whether update() can honour the options: the target edge length is that of phase 1. All else may change.
   bool allows(const HierarchyOptions& options) const;
   /// The intermediate level as phase 1 left it, without vertices that were brought back. Valid until update().

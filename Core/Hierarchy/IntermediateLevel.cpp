@@ -149,11 +149,7 @@ void IntermediateLevel::put(const std::vector<Index>& vertices, const HierarchyO
     return;
   }
   dropCoarse();
-  if (!logPlaces_)
-  {
-    logPlaces_.emplace(hierarchy_.log, options.threads);
-  }
-  restore(removalsFrom(hierarchy_.log, *logPlaces_, missing), vertices, options);
+  restore(removalsFrom(hierarchy_.log, missing), vertices, options);
 }
 
 /// Undoes the removals, and thins out again what they have touched, but for the vertices.
@@ -261,8 +257,7 @@ void IntermediateLevel::finish()
 
 std::size_t IntermediateLevel::bytesAside() const
 {
-  std::size_t bytes = fineCurves_.kind.size() * (sizeof(VertexKind) + sizeof(Index)) +
-    (logPlaces_ ? logPlaces_->bytes() : 0);
+  std::size_t bytes = fineCurves_.kind.size() * (sizeof(VertexKind) + sizeof(Index));
   if (aside_)
   {
     for (const auto& [id, block] : aside_->blocks)
@@ -286,50 +281,6 @@ void IntermediateLevel::carryGuides(const HierarchyOptions& options)
   hierarchy_.intermediate.guides = guidesOfLevel(
     fine_, hierarchy_.intermediate, options.guides, kGuideReach * edgeLength_, options.threads);
   guides_ = options.guides;
-}
-
-// Another finest mesh
-
-bool IntermediateLevel::follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
-  const HierarchyOptions& options)
-{
-  const Stopwatch watch;
-  returnToPhase1();
-  dropCoarse();
-  const ChangedMesh changed(fine, names, options.threads);
-  fineCurves_ = curvesOfFinest(fine, edgeLength_);
-  std::vector<Index> wanted = changed.wanted();
-  for (Index v = 0; v < fine.vertexCount(); ++v)
-  {
-    // The change may have made an end of a curve of a vertex that was none.
-    if (fineCurves_.kind[v] == VertexKind::Protected && names.vertex[v] != kInvalidIndex)
-    {
-      wanted.push_back(names.vertex[v]);
-    }
-  }
-  const std::vector<Index> missing = missingOn(hierarchy_.intermediate, std::move(wanted));
-  if (kUndoneForKept * missing.size() > fine.vertexCount())
-  {
-    return false;
-  }
-  const std::vector<LoggedRemoval> removals =
-    removalsFrom(hierarchy_.log, LogPlaces(hierarchy_.log, options.threads), missing);
-  const RestoredLevel level = changed.apply(
-    undoRemovals(hierarchy_.intermediate, mesh_->curveError, hierarchy_.log, removals));
-  takeOut(hierarchy_.log, removals);
-  changed.rename(hierarchy_.log, options.threads);
-  hierarchy_.log.fineHash = fineHash;
-  hierarchy_.log.fineFaces = fine.faceCount();
-  fine_ = fine;
-  byPhase1_ = { {}, fine.sizing };
-  byRestoration_ = {};
-  logPlaces_.reset();
-  anySmallComponent_ =
-    vertexScales(fine, edgeLength_, options.isConnected, options.threads).anySmallComponent;
-  putThere(thinOutAgain(level, {}, options));
-  fineCurves_ = {};
-  hierarchy_.secondsPhase1 += watch.seconds();
-  return true;
 }
 
 bool isLocalChange(const Mesh& fine, const std::vector<float>& sizesBefore, std::size_t kept)

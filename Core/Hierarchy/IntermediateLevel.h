@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// The intermediate level of a hierarchy [Ebke et al. 2016, Section 5.3]: what phase 1 leaves of the finest mesh, with
-/// vertices that come back to it (VertexRestoration.h), and taken along when the finest mesh changes (ChangedMesh.h).
+/// vertices that come back to it (VertexRestoration.h).
 #pragma once
 
-#include "Hierarchy/ChangedMesh.h"
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Hierarchy/VertexRestoration.h"
@@ -43,9 +42,6 @@ public:
   void put(const std::vector<Index>& vertices, const HierarchyOptions& options);
   /// Brings the guides of the options to the level, where they have changed.
   void carryGuides(const HierarchyOptions& options);
-  /// See Redecimation::follow().
-  bool follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
-    const HierarchyOptions& options);
   /// Takes the coarse level and what leads to it from the hierarchy.
   void dropCoarse();
   /// See Redecimation::bytesAside().
@@ -93,9 +89,8 @@ private:
   Wanted byPhase1_;
   Wanted byRestoration_; ///< where something is set aside
   std::optional<Aside> aside_;
-  FeatureCurves fineCurves_;           ///< for vertices that come back, when first needed
-  std::optional<LogPlaces> logPlaces_; ///< of phase 1, the same
-  std::vector<FaceGuide> guides_;      ///< that the level has
+  FeatureCurves fineCurves_;      ///< for vertices that come back, when first needed
+  std::vector<FaceGuide> guides_; ///< that the level has
 };
 
 } // namespace quadrille

@@ -64,15 +64,12 @@ struct StarOf
 class Search
 {
 public:
-  Search(const DecimationLog& log, const LogPlaces& places, const std::vector<Index>& vertices)
-    : log_(log), places_(places), touched_(log.fineFaces), wanted_(vertices.back() + 1),
-      touchedPlaces_(LogPlaces::placesOf(log.fineFaces)),
-      wantedPlaces_(LogPlaces::placesOf(vertices.back()))
+  Search(const DecimationLog& log, const std::vector<Index>& vertices)
+    : log_(log), touched_(log.fineFaces), wanted_(vertices.back() + 1)
   {
     for (const Index v : vertices)
     {
       wanted_[v] = true;
-      wantedPlaces_[v >> LogPlaces::kPlaceBits] = true;
     }
   }
 
@@ -81,10 +78,6 @@ public:
     for (std::size_t block = 0; block < log_.blocks.size(); ++block)
     {
       poll();
-      if (!places_.mayMeet(block, wantedPlaces_, touchedPlaces_))
-      {
-        continue;
-      }
       findRemovals(log_.blocks[block], offsets_);
       for (std::size_t i = 0; i + 1 < offsets_.size(); ++i)
       {
@@ -110,16 +103,13 @@ private:
     for (int i = 0; i < star.faces && meets; ++i)
     {
       touched_[star.face(i)] = true;
-      touchedPlaces_[star.face(i) >> LogPlaces::kPlaceBits] = true;
     }
     return meets;
   }
 
   const DecimationLog& log_;
-  const LogPlaces& places_;
   std::vector<bool> touched_; ///< faces of the finest mesh
   std::vector<bool> wanted_;  ///< vertices up to the last one that is asked for
-  std::vector<bool> touchedPlaces_, wantedPlaces_;
   std::vector<std::size_t> offsets_;
   std::vector<LoggedRemoval> found_;
 };
@@ -349,73 +339,23 @@ RestoredLevel Undoing::finish() const
 
 } // namespace
 
-LogPlaces::LogPlaces(const DecimationLog& log, int threads) : blocks_(log.blocks.size())
-{
-  const auto sort = [](std::vector<Index>& places)
-  {
-    sortUnique(places);
-    places.shrink_to_fit();
-  };
-  const auto add = [](std::vector<Index>& places, Index element)
-  {
-    const Index place = element >> kPlaceBits;
-    if (places.empty() || places.back() != place)
-    {
-      places.push_back(place);
-    }
-  };
-  parallelFor(blocks_.size(), 1, threads,
-    [&](std::size_t block, std::size_t)
-    {
-      BlockPlaces& places = blocks_[block];
-      std::vector<std::size_t> offsets;
-      findRemovals(log.blocks[block], offsets);
-      for (std::size_t i = 0; i + 1 < offsets.size(); ++i)
-      {
-        const StarOf star(log.blocks[block], offsets[i], offsets[i + 1]);
-        add(places.vertices, star.vertex);
-        for (int k = 0; k < star.faces; ++k)
-        {
-          add(places.faces, star.face(k));
-        }
-      }
-      sort(places.vertices);
-      sort(places.faces);
-    });
-}
-
-bool LogPlaces::mayMeet(
-  std::size_t block, const std::vector<bool>& vertices, const std::vector<bool>& faces) const
-{
-  const auto anyOf = [](const std::vector<Index>& places, const std::vector<bool>& flags)
-  {
-    return std::any_of(places.begin(), places.end(),
-      [&](Index place) { return place < flags.size() && flags[place]; });
-  };
-  return anyOf(blocks_[block].vertices, vertices) || anyOf(blocks_[block].faces, faces);
-}
-
-std::size_t LogPlaces::bytes() const
-{
-  std::size_t bytes = blocks_.size() * sizeof(BlockPlaces);
-  for (const BlockPlaces& block : blocks_)
-  {
-    bytes += (block.vertices.size() + block.faces.size()) * sizeof(Index);
-  }
-  return bytes;
-}
-
 std::vector<LoggedRemoval> removalsFrom(
-  const DecimationLog& log, const LogPlaces& places, const std::vector<Index>& vertices)
+  const DecimationLog& log, const std::vector<Index>& vertices)
 {
-  return vertices.empty() ? std::vector<LoggedRemoval>{} : Search(log, places, vertices).run();
+  return vertices.empty() ? std::vector<LoggedRemoval>{} : Search(log, vertices).run();
 }
 
 RestoredLevel undoRemovals(const Mesh& fine, const Level& level,
   const std::vector<float>& curveError, const DecimationLog& log,
   const std::vector<LoggedRemoval>& removals)
 {
-  RestoredLevel restored = undoRemovals(level, curveError, log, removals);
+  Undoing undoing(level, curveError);
+  for (auto removal = removals.rbegin(); removal != removals.rend(); ++removal)
+  {
+    const std::uint8_t* records = log.blocks[removal->block].data();
+    undoing.undo(records + removal->begin, records + removal->end);
+  }
+  RestoredLevel restored = undoing.finish();
   for (const Index v : restored.level.fineVertex)
   {
     restored.level.mesh.position.push_back(fine.position[v]);
@@ -425,18 +365,6 @@ RestoredLevel undoRemovals(const Mesh& fine, const Level& level,
     }
   }
   return restored;
-}
-
-RestoredLevel undoRemovals(const Level& level, const std::vector<float>& curveError,
-  const DecimationLog& log, const std::vector<LoggedRemoval>& removals)
-{
-  Undoing undoing(level, curveError);
-  for (auto removal = removals.rbegin(); removal != removals.rend(); ++removal)
-  {
-    const std::uint8_t* records = log.blocks[removal->block].data();
-    undoing.undo(records + removal->begin, records + removal->end);
-  }
-  return undoing.finish();
 }
 
 std::vector<std::pair<std::size_t, BlockRecords>> takeOut(

@@ -28,34 +28,10 @@ struct LoggedRemoval
   std::size_t begin = 0, end = 0;
 };
 
-/// Where the blocks of a log lie on the finest mesh, whose faces and vertices are in the order of a space-filling
-/// curve: a search for what touches a place passes over most of the log.
-class LogPlaces
-{
-public:
-  explicit LogPlaces(const DecimationLog& log, int threads = 1);
-
-  /// Elements of the finest mesh whose ids differ by this many bits below only are at one place.
-  static constexpr int kPlaceBits = 11;
-  static std::size_t placesOf(std::size_t elements) { return (elements >> kPlaceBits) + 1; }
-
-  /// Whether a block may remove a vertex at one of the places, or touch a face there; flags by place.
-  bool mayMeet(
-    std::size_t block, const std::vector<bool>& vertices, const std::vector<bool>& faces) const;
-  std::size_t bytes() const;
-
-private:
-  struct BlockPlaces
-  {
-    std::vector<Index> vertices, faces; ///< ascending
-  };
-  std::vector<BlockPlaces> blocks_;
-};
-
 /// The removals of these vertices (ids of the finest mesh, ascending) and all that depend on them, in the order of the
-/// log. places: of the log.
+/// log.
 std::vector<LoggedRemoval> removalsFrom(
-  const DecimationLog& log, const LogPlaces& places, const std::vector<Index>& vertices);
+  const DecimationLog& log, const std::vector<Index>& vertices);
 
 /// A level with removals undone.
 struct RestoredLevel
@@ -66,11 +42,7 @@ struct RestoredLevel
   std::vector<Index> touched; ///< vertices of faces that were in a star, ascending
 };
 
-/// The level that the log leads to, without these removals: a set as removalsFrom() gives it. Without positions and
-/// sizes, which only the finest mesh has.
-RestoredLevel undoRemovals(const Level& level, const std::vector<float>& curveError,
-  const DecimationLog& log, const std::vector<LoggedRemoval>& removals);
-/// The same with them.
+/// The level that the log leads to, without these removals: a set as removalsFrom() gives it.
 RestoredLevel undoRemovals(const Mesh& fine, const Level& level,
   const std::vector<float>& curveError, const DecimationLog& log,
   const std::vector<LoggedRemoval>& removals);

@@ -23,11 +23,4 @@ std::vector<Index> spaceFillingOrder(const std::vector<Vector3>& points, int thr
 /// empty.
 void orderSurface(PreparedSurface& surface, int threads);
 
-/// The same for a surface that was in order before it was changed at few places: the last faces and vertices take the
-/// places of those that go, and what was added stays where it is. Nothing else moves.
-void compactSurface(PreparedSurface& surface, int threads);
-
-/// The one or the other, by the number of places where the surface was changed: few of a large one need no new order.
-void orderAfterChanges(PreparedSurface& surface, std::size_t places, int threads);
-
 } // namespace quadrille

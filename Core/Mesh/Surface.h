@@ -5,7 +5,6 @@
 
 #include "Mesh/KnownCurvature.h"
 #include "Mesh/Mesh.h"
-#include "Mesh/NamesBefore.h"
 #include "Mesh/Requests.h"
 
 #include <array>
@@ -161,8 +160,9 @@ struct PreparedSurface : SurfaceRequests
 
   SharedArray<KnownCurvature> curvatures; ///< by sourcePolygon, or empty; see SurfaceInput
 
-  /// Set by who wants to know what becomes of the elements; orderSurface keeps it.
-  std::optional<NamesBefore> namesBefore;
+  /// Set by who wants to know what becomes of the vertices when a place is changed, else empty: #V, the ids before;
+  /// orderSurface keeps it, with kInvalidIndex for vertices made since.
+  std::vector<Index> vertexBefore;
 
   const SurfaceRequests& requests() const { return *this; }
   void setRequests(SurfaceRequests requests)

@@ -147,9 +147,9 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
     parallelForEach(order.size(), kOrderChunk, threads,
       [&](std::size_t i)
       { newId[kept.empty() ? order[i] : kept[order[i]]] = static_cast<Index>(i); });
-    if (surface.namesBefore)
+    if (!surface.vertexBefore.empty())
     {
-      orderNames(newId, order.size(), surface.namesBefore->vertex);
+      orderNames(newId, order.size(), surface.vertexBefore);
     }
   }
   Index* origin = mesh.origin.edit();
@@ -259,11 +259,6 @@ void orderFaces(PreparedSurface& surface, Permuter& permute, int threads)
 {
   Mesh& mesh = surface.mesh;
   const std::vector<Index> order = facesByLowestVertex(mesh, threads);
-  if (surface.namesBefore)
-  {
-    surface.namesBefore->face.resize(mesh.faceCount(), kInvalidIndex);
-    permute.operator()<1>(surface.namesBefore->face, order);
-  }
   orderTwins(mesh, order, permute);
   permute.operator()<3>(mesh.origin, order);
   permute.operator()<3>(mesh.flags, order);
@@ -273,116 +268,6 @@ void orderFaces(PreparedSurface& surface, Permuter& permute, int threads)
   orderWeights(surface);
 }
 
-/// Which of the last elements takes the place of which one that goes; `goes` ascending, of `count` elements.
-struct Moves
-{
-  Index count = 0;                            ///< of elements that stay
-  std::vector<std::pair<Index, Index>> moved; ///< from, ascending, and to
-
-  /// Of an element that stays.
-  Index newId(Index i) const
-  {
-    return i < count
-      ? i
-      : std::lower_bound(moved.begin(), moved.end(), std::pair<Index, Index>{ i, 0 })->second;
-  }
-};
-
-Moves fillHoles(const std::vector<Index>& goes, Index count)
-{
-  Moves moves;
-  moves.count = count - static_cast<Index>(goes.size());
-  auto hole = goes.begin();
-  auto behind = std::lower_bound(goes.begin(), goes.end(), moves.count);
-  for (Index from = moves.count; from < count; ++from)
-  {
-    if (behind != goes.end() && *behind == from)
-    {
-      ++behind;
-      continue;
-    }
-    moves.moved.emplace_back(from, *hole++);
-  }
-  return moves;
-}
-
-/// kWidth values an element; empty arrays stay empty.
-template <std::size_t kWidth, typename T>
-void moveElements(std::vector<T>& values, const Moves& moves)
-{
-  if (values.empty())
-  {
-    return;
-  }
-  for (const auto& [from, to] : moves.moved)
-  {
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(kWidth * from), kWidth,
-      values.begin() + static_cast<std::ptrdiff_t>(kWidth * to));
-  }
-  values.resize(kWidth * moves.count);
-}
-template <std::size_t kWidth, typename T>
-void moveElements(SharedArray<T>& values, const Moves& moves)
-{
-  values.change([&](std::vector<T>& own) { moveElements<kWidth>(own, moves); });
-}
-
-void compactFaces(PreparedSurface& surface, int threads)
-{
-  Mesh& mesh = surface.mesh;
-  const Moves moves = fillHoles(parallelSelect(mesh.faceCount(), kOrderChunk, threads,
-                                  [&](Index f) { return isRemoved(mesh, f); }),
-    mesh.faceCount());
-  const auto newSlot = [&](Index h) { return 3 * moves.newId(h / 3) + h % 3; };
-  for (const auto& [from, to] : moves.moved)
-  {
-    for (Index h = 3 * from; h < 3 * from + 3; ++h)
-    {
-      const Index g = mesh.twin[h];
-      if (g == kInvalidIndex)
-      {
-        continue;
-      }
-      if (Mesh::face(g) < moves.count) // else it is moved itself
-      {
-        mesh.twin.edit()[g] = newSlot(h);
-      }
-      mesh.twin.edit()[h] = newSlot(g);
-    }
-  }
-  if (surface.namesBefore)
-  {
-    surface.namesBefore->face.resize(mesh.faceCount(), kInvalidIndex);
-    moveElements<1>(surface.namesBefore->face, moves);
-  }
-  moveElements<3>(mesh.origin, moves);
-  moveElements<3>(mesh.twin, moves);
-  moveElements<3>(mesh.flags, moves);
-  moveElements<1>(surface.sourcePolygon, moves);
-  moveElements<1>(surface.sourcePoints, moves);
-  moveElements<1>(surface.refinedEntry, moves);
-}
-
-void compactVertices(PreparedSurface& surface, int threads)
-{
-  Mesh& mesh = surface.mesh;
-  const UsedPoints used(mesh.origin, mesh.vertexCount(), threads);
-  const Moves moves = fillHoles(
-    parallelSelect(mesh.vertexCount(), kOrderChunk, threads, [&](Index v) { return !used.has(v); }),
-    mesh.vertexCount());
-  if (surface.namesBefore)
-  {
-    surface.namesBefore->vertex.resize(mesh.vertexCount(), kInvalidIndex);
-    moveElements<1>(surface.namesBefore->vertex, moves);
-  }
-  moveElements<1>(mesh.position, moves);
-  moveElements<1>(mesh.sizing, moves);
-  Index* origin = mesh.origin.edit();
-  parallelForEach(mesh.origin.size(), kOrderChunk, threads,
-    [&](std::size_t h) { origin[h] = moves.newId(origin[h]); });
-  renameRequests(surface, [&](Index v) { return moves.newId(v); });
-}
-
 } // namespace
 
 void orderSurface(PreparedSurface& surface, int threads)
@@ -390,20 +275,6 @@ void orderSurface(PreparedSurface& surface, int threads)
   Permuter permute(threads);
   orderVertices(surface, permute, threads);
   orderFaces(surface, permute, threads);
-}
-
-void compactSurface(PreparedSurface& surface, int threads)
-{
-  compactFaces(surface, threads);
-  compactVertices(surface, threads);
-}
-
-void orderAfterChanges(PreparedSurface& surface, std::size_t places, int threads)
-{
-  constexpr std::size_t kFewPlaces = 8;
-  constexpr Index kLarge = Index{ 1 } << 18; // faces
-  const bool isLittle = places <= kFewPlaces && surface.mesh.faceCount() >= kLarge;
-  isLittle ? compactSurface(surface, threads) : orderSurface(surface, threads);
 }
 
 } // namespace quadrille

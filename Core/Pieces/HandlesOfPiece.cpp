@@ -8,6 +8,7 @@
 #include "Details/NearLoops.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace quadrille
@@ -85,13 +86,14 @@ bool HandlesOfPiece::close(
   std::vector<std::vector<Index>> places(handles.size());
   std::transform(handles.begin(), handles.end(), places.begin(),
     [&](const ShortHandle& handle) { return onFinest(handle.onLevel, level); });
-  surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
+  surface.vertexBefore.resize(surface.mesh.vertexCount());
+  std::iota(surface.vertexBefore.begin(), surface.vertexBefore.end(), Index{ 0 });
   closed_ = cutShortHandles(surface, handles, places, closedLoop_, quadEdge_, threads);
   if (!closed_.empty())
   {
     findNewVertices(surface);
   }
-  surface.namesBefore.reset();
+  surface.vertexBefore.clear();
   return !closed_.empty();
 }
 
@@ -101,7 +103,7 @@ void HandlesOfPiece::findNewVertices(const PreparedSurface& surface)
   isNew_.assign(mesh.vertexCount(), 0);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
-    isNew_[v] = surface.namesBefore->vertex[v] == kInvalidIndex ? 1 : 0;
+    isNew_[v] = surface.vertexBefore[v] == kInvalidIndex ? 1 : 0;
   }
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {

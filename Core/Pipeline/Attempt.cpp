@@ -297,11 +297,6 @@ RunContext makeRun(const SizedSurface& sized, const RemeshOptions& options, Resu
   RunContext run{ options, sized.edgeLength, sized.targetQuads,
     withoutPlan(sized.surface, sized.key), store, Levels(store) };
   run.hasBeside = sized.hasBeside;
-  if (sized.starsKey != 0)
-  {
-    run.surface.starsKey = sized.starsKey;
-    run.surface.own = sized.own;
-  }
   if (options.progress)
   {
     run.options.progress = [tried = run.tried, asked = options.progress](

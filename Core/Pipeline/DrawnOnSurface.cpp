@@ -113,12 +113,12 @@ void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& f
   noteAdded(surface, before, threads, notices);
 }
 
-AddedVertices drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
+bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
   double edgeLength, int threads, std::vector<std::string>& notices)
 {
   if (valences.empty())
   {
-    return AddedVertices::None;
+    return false;
   }
   const Index before = surface.mesh.vertexCount();
   const InsertedValences inserted = insertValences(surface, valences, { edgeLength, threads });
@@ -129,10 +129,10 @@ AddedVertices drawValences(PreparedSurface& surface, const std::vector<ValencePl
   }
   if (surface.mesh.vertexCount() == before)
   {
-    return AddedVertices::None;
+    return false;
   }
   noteAdded(surface, before, threads, notices);
-  return inserted.splitConstraint ? AddedVertices::OnFeatures : AddedVertices::InFaces;
+  return true;
 }
 
 } // namespace quadrille

@@ -28,16 +28,8 @@ void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, do
 void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& features,
   double edgeLength, int threads, std::vector<std::string>& notices);
 
-/// Where vertices were added to the triangles.
-enum class AddedVertices
-{
-  None,
-  InFaces,   ///< and on edges that are no features
-  OnFeatures ///< there, too
-};
-
-/// Valences at places, on the triangles as they are to stay.
-AddedVertices drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
+/// Valences at places, on the triangles as they are to stay. Whether vertices were added to these.
+bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
   double edgeLength, int threads, std::vector<std::string>& notices);
 
 } // namespace quadrille

@@ -24,9 +24,8 @@ std::size_t bytesOfLoops(const ShortLoops& found)
 
 void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::string>& reused)
 {
-  const ResultKey key = KeyMaker(run.surface.key)
-                          .add(run.edgeLength, run.options.smallestDetail, run.levels.hasFollowed())
-                          .key();
+  const ResultKey key =
+    KeyMaker(run.surface.key).add(run.edgeLength, run.options.smallestDetail).key();
   bool isKnown = true;
   run.shortLoops = *findOrMake<ShortLoops>(
     run.store, key,

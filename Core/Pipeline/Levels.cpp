@@ -3,7 +3,6 @@
 #include "Pipeline/Levels.h"
 
 #include "Base/Memory.h"
-#include "Hierarchy/SharedStars.h"
 #include "Transfer/SurfaceStretch.h"
 
 #include <utility>
@@ -25,12 +24,6 @@ ResultKey phase2Key(ResultKey surface, const HierarchyOptions& options)
   return key.key();
 }
 
-/// Of phase 1 without anything that is to be kept; that of levels that have followed is another one.
-ResultKey keyOfPlain(ResultKey surface, double edgeLength, bool hasFollowed)
-{
-  return KeyMaker(surface).add(edgeLength, hasFollowed).key();
-}
-
 bool isPlain(const PlannedSurface& surface, const HierarchyOptions& options)
 {
   return isLocalChange(surface->mesh, surface.sizesBefore, options.keepVertices.size());
@@ -41,9 +34,8 @@ bool isPlain(const PlannedSurface& surface, const HierarchyOptions& options)
 std::size_t StoredLevels::bytes() const
 {
   const Hierarchy& hierarchy = levels->hierarchy();
-  return hierarchy.log.recordBytes() + (stars ? 0 : hierarchy.cache.bytes) +
-    bytesOf(hierarchy.coarse.mesh) + 2 * bytesOf(hierarchy.intermediate.mesh) +
-    levels->bytesAside();
+  return hierarchy.log.recordBytes() + hierarchy.cache.bytes + bytesOf(hierarchy.coarse.mesh) +
+    2 * bytesOf(hierarchy.intermediate.mesh) + levels->bytesAside();
 }
 
 bool Levels::recall(ResultKey wanted)
@@ -71,19 +63,7 @@ void Levels::decimate(
   letGo(); // before the new ones take their memory
   ++decimations_;
   auto made = std::make_shared<StoredLevels>(); // what is stopped on the way is not held
-  HierarchyOptions withStars = options;
-  if (store_ != nullptr)
-  {
-    made->starsKey = KeyMaker(surface.starsKey).add(options.targetEdgeLength).key();
-    made->stars = store_->find<SharedStars>(made->starsKey);
-    if (!made->stars)
-    {
-      made->stars = std::make_shared<SharedStars>();
-    }
-    withStars.stars = made->stars;
-    withStars.own = surface.own;
-  }
-  made->levels = std::make_unique<Redecimation>(mesh, surface->hash, withStars);
+  made->levels = std::make_unique<Redecimation>(mesh, surface->hash, options);
   held_ = std::move(made);
   heldKey_ = key;
   releaseFreedMemory();
@@ -98,12 +78,8 @@ void Levels::obtain(const PlannedSurface& surface, const HierarchyOptions& optio
 {
   stages_ = {};
   const bool plain = isPlain(surface, options);
-  if (hasFollowed_ && (!plain || plainKey(surface, options) != heldKey_))
-  {
-    letGo();
-  }
   const ResultKey key = plain
-    ? plainKey(surface, options)
+    ? KeyMaker(surface.keyWithoutSizes).add(options.targetEdgeLength).key()
     : KeyMaker(surface.key).add(options.targetEdgeLength, options.keepVertices).key();
   if (recall(key))
   {
@@ -117,40 +93,6 @@ void Levels::obtain(const PlannedSurface& surface, const HierarchyOptions& optio
     mesh.sizing = surface.sizesBefore;
   }
   decimate(surface, mesh, phase1, key);
-}
-
-ResultKey Levels::plainKey(const PlannedSurface& surface, const HierarchyOptions& options) const
-{
-  return keyOfPlain(surface.keyWithoutSizes, options.targetEdgeLength, hasFollowed_);
-}
-
-std::unique_ptr<Redecimation> Levels::giveToFollow(
-  const PlannedSurface& surface, const HierarchyOptions& options)
-{
-  if (!held_ || !isPlain(surface, options) || heldKey_ != plainKey(surface, options))
-  {
-    return nullptr;
-  }
-  std::unique_ptr<Redecimation> levels = std::move(held_->levels);
-  held_.reset(); // the store may have the rest, which counts as not there
-  return levels;
-}
-
-void Levels::follow(std::shared_ptr<StoredLevels> followed, bool isStored,
-  const PlannedSurface& surface, const HierarchyOptions& options)
-{
-  hasFollowed_ = true;
-  recalled_ = recalled_ || isStored;
-  held_ = std::move(followed);
-  heldKey_ = plainKey(surface, options);
-}
-
-std::shared_ptr<StoredLevels> Levels::findFollowed(
-  ResultStore& store, ResultKey surfaceKey, double edgeLength)
-{
-  std::shared_ptr<StoredLevels> found =
-    store.find<StoredLevels>(keyOfPlain(surfaceKey, edgeLength, true));
-  return found && found->levels ? found : nullptr;
 }
 
 const Level& Levels::makeIntermediate(
@@ -199,10 +141,6 @@ void Levels::letGo()
   if (held_ && store_ != nullptr)
   {
     const std::size_t bytes = held_->bytes();
-    if (held_->stars)
-    {
-      store_->put(held_->starsKey, held_->stars, held_->stars->bytes());
-    }
     store_->put(heldKey_, std::move(held_), bytes);
   }
   else if (held_)
@@ -211,7 +149,6 @@ void Levels::letGo()
     releaseFreedMemory(); // the log is a tenth of all
   }
   held_.reset();
-  hasFollowed_ = false;
 }
 
 } // namespace quadrille

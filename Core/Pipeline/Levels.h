@@ -20,8 +20,6 @@ struct StoredLevels
 {
   std::unique_ptr<Redecimation> levels;
   ResultKey made = 0; ///< of the options of phase 2, when the coarse level was made last
-  std::shared_ptr<SharedStars> stars; ///< that lie in the store beside it; null: none
-  ResultKey starsKey = 0;
 
   std::size_t bytes() const;
 };
@@ -47,20 +45,6 @@ public:
   /// What was made last, which goes to the store, too, where there is one.
   Hierarchy take();
 
-  /// Levels that have followed a change by which the surface was made (Redecimation::follow) are others than those that
-  /// phase 1 makes of it. So that it does not matter what a store still has, they count only until they are let go.
-  /// Gives the levels of the surface without a plan away, from before a change; null where others are held.
-  std::unique_ptr<Redecimation> giveToFollow(
-    const PlannedSurface& surface, const HierarchyOptions& options);
-  /// Takes them back, of a surface that has followed. options: those of makeIntermediate. isStored: whether they are
-  /// from the store.
-  void follow(std::shared_ptr<StoredLevels> followed, bool isStored, const PlannedSurface& surface,
-    const HierarchyOptions& options);
-  bool hasFollowed() const { return hasFollowed_; }
-  /// The same from the store; null where it has none.
-  static std::shared_ptr<StoredLevels> findFollowed(
-    ResultStore& store, ResultKey surfaceKey, double edgeLength);
-
   int decimations() const { return decimations_; } ///< runs of phase 1
   bool recalled() const { return recalled_; }      ///< whether phase 1 was in the store
   /// Of the last make(): seconds and sizes of what was computed.
@@ -68,7 +52,6 @@ public:
 
 private:
   void obtain(const PlannedSurface& surface, const HierarchyOptions& options);
-  ResultKey plainKey(const PlannedSurface& surface, const HierarchyOptions& options) const;
   bool recall(ResultKey wanted);
   void decimate(const PlannedSurface& surface, const Mesh& mesh, const HierarchyOptions& options,
     ResultKey key);
@@ -78,7 +61,6 @@ private:
   ResultKey heldKey_ = 0;
   int decimations_ = 0;
   bool recalled_ = false;
-  bool hasFollowed_ = false;
   StageRecords stages_;
 };
 

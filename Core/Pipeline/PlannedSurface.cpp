@@ -64,8 +64,7 @@ double areaOverSizes(const PreparedSurface& surface, const std::vector<float>& s
 PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, ResultKey key)
 {
   const SharedArray<float> sizes = surface->mesh.sizing;
-  const Index vertices = surface->mesh.vertexCount();
-  return { std::move(surface), key, key, sizes, key, { vertices, {}, 0 } };
+  return { std::move(surface), key, key, sizes };
 }
 
 PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan)
@@ -77,12 +76,10 @@ PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan)
   PreparedSurface planned = *surface;
   Mesh& mesh = planned.mesh;
   KeyMaker key(surface.key);
-  KeyMaker stars(surface.starsKey);
   if (plan.featuresGivenUp)
   {
     unmarkFeatures(mesh, *plan.featuresGivenUp);
     key.add(*plan.featuresGivenUp);
-    stars.add(*plan.featuresGivenUp);
     planned.hash = contentHash(mesh, 1);
   }
   if (plan.counterparts)
@@ -97,7 +94,7 @@ PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan)
     key.add(*plan.sizes);
   }
   return { std::make_shared<const PreparedSurface>(std::move(planned)), key.key(), keyWithoutSizes,
-    surface.sizesBefore, stars.key(), surface.own };
+    surface.sizesBefore };
 }
 
 } // namespace quadrille

@@ -4,7 +4,6 @@
 /// plans.
 #pragma once
 
-#include "Hierarchy/OwnVertices.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Plan.h"
 #include "Pipeline/ResultStore.h"
@@ -29,10 +28,6 @@ struct PlannedSurface
   ResultKey key = 0;              ///< guides and valences left aside
   ResultKey keyWithoutSizes = 0;  ///< as if the plan had no sizes
   SharedArray<float> sizesBefore; ///< those without the plan
-  /// Of the surface to which vertices and features were added without a change of shape, and those that it does not
-  /// have; its own where none were.
-  ResultKey starsKey = 0;
-  OwnVertices own;
 
   const PreparedSurface& operator*() const { return *surface; }
   const PreparedSurface* operator->() const { return surface.get(); }

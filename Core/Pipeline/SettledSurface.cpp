@@ -24,11 +24,6 @@ namespace quadrille
 namespace
 {
 
-/// Levels follow the changes of up to so many places, of surfaces of so many faces at least: on smaller ones phase 1
-/// costs next to nothing. Of skull, with 287 handles cut at 3,000 quads, maps held on new levels and not on those that
-/// had followed.
-constexpr std::size_t kMostFollowed = 8;
-constexpr Index kLeastFollowed = Index{ 1 } << 18;
 /// How often handles are looked for and cut: those whose loops meet others' have to wait.
 constexpr int kMostCuttings = 10;
 /// Where a round cuts less than this part of those it has tried, another one is not worth its phase 1.
@@ -48,7 +43,6 @@ struct StoredSettled
   PreparedSurface surface;
   ResultKey key = 0;
   std::vector<SmallDetail> simplified;
-  bool hasFollowed = false; ///< its levels follow those of the surface before, see Levels
 };
 
 bool isSimplified(const SmallDetail& detail)
@@ -65,14 +59,10 @@ struct Settling
   SizedSurface& sized;
   const RemeshOptions& options;
   ResultStore* store;
-  bool isRest;   ///< nothing else has led to quads
-  bool takesAll; ///< see detailLimits
-  Settled made;  ///< its run: of the surface as it is; none: to be made
-  std::shared_ptr<StoredLevels>
-    levels;                ///< of the surface as it is that have followed, for the next run
-  bool areStored = false;  ///< these are from the store
-  std::size_t changes = 0; ///< places where the surface was changed
-  bool isOwn = false;      ///< whether any change was tried
+  bool isRest;        ///< nothing else has led to quads
+  bool takesAll;      ///< see detailLimits
+  Settled made;       ///< its run: of the surface as it is; none: to be made
+  bool isOwn = false; ///< whether any change was tried
 };
 
 /// Of a surface that has changed.
@@ -90,10 +80,6 @@ void measure(Settling& work)
 {
   letGo(work.made);
   RunContext& run = work.made.run.emplace(makeRun(work.sized, work.options, work.store));
-  if (work.levels)
-  {
-    run.levels.follow(std::move(work.levels), work.areStored, run.surface, levelOptions(run, {}));
-  }
   findShortLoops(run, work.sized.stages, work.sized.reused);
 }
 
@@ -106,26 +92,6 @@ void countBlocksAgain(Settling& work)
   }
 }
 
-bool mayFollow(const Settling& work)
-{
-  return work.changes <= kMostFollowed && work.sized.surface->mesh.faceCount() >= kLeastFollowed;
-}
-
-/// The levels of the surface before a change, if they can be had; the run of that surface is let go.
-std::shared_ptr<StoredLevels> levelsBefore(Settling& work)
-{
-  std::shared_ptr<StoredLevels> levels = std::move(work.levels);
-  if (work.made.run && mayFollow(work))
-  {
-    RunContext& run = *work.made.run;
-    auto given = std::make_shared<StoredLevels>();
-    given->levels = run.levels.giveToFollow(run.surface, levelOptions(run, {}));
-    levels = given->levels ? std::move(given) : nullptr;
-  }
-  letGo(work.made);
-  return levels;
-}
-
 /// What `change` closes becomes a surface with triangles no larger than quads, and a key of its own. change: tells the
 /// details that it has taken out, none where the surface is as it was. Returns how many these are.
 std::size_t changeSurface(
@@ -136,33 +102,19 @@ std::size_t changeSurface(
   PreparedSurface changed = *sized.surface;
   const std::size_t facesBefore = changed.mesh.faceCount();
   work.isOwn = true;
-  if ((work.made.run || work.levels) && mayFollow(work))
-  {
-    changed.namesBefore = NamesBefore::of(changed.mesh.vertexCount(), changed.mesh.faceCount());
-  }
   const std::vector<SmallDetail> details = change(changed);
   if (details.empty())
   {
     return 0;
   }
   work.made.details.insert(work.made.details.end(), details.begin(), details.end());
-  work.changes += details.size();
-  std::shared_ptr<StoredLevels> levels = levelsBefore(work);
+  letGo(work.made);
   // What was left long for its number stays so: the bound grows with the faces that there are now.
   if (changed.notice.empty())
   {
     refineSurface(changed, sized.edgeLength, {}, work.options.threads);
   }
   sized.key = KeyMaker(sized.key).add(changed.hash).key();
-  HierarchyOptions options;
-  options.threads = work.options.threads;
-  options.isConnected = changed.components == 1;
-  if (levels && mayFollow(work) && changed.namesBefore &&
-    levels->levels->follow(changed.mesh, changed.hash, *changed.namesBefore, options))
-  {
-    work.levels = std::move(levels);
-  }
-  changed.namesBefore.reset();
   sized.surface = std::make_shared<const PreparedSurface>(std::move(changed));
   countBlocksAgain(work);
   sized.stages.add("simplify", secondsNow() - start, facesBefore, sized.surface->mesh.faceCount());
@@ -307,7 +259,7 @@ void takeRequests(PreparedSurface surface, const AskedPlaces& asked, Settling& w
   const bool isSame = std::equal(before.begin(), before.end(), surface.valenceRequests.begin(),
     surface.valenceRequests.end(),
     [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex == b.vertex; });
-  if (!isSame && !(work.made.run && work.made.run->levels.hasFollowed()))
+  if (!isSame)
   {
     letGo(work.made); // its levels hold other vertices
   }
@@ -324,15 +276,6 @@ bool recall(ResultKey key, const AskedPlaces& asked, Settling& work)
   if (!known)
   {
     return false;
-  }
-  if (known->hasFollowed)
-  {
-    work.levels = Levels::findFollowed(*work.store, known->key, work.sized.edgeLength);
-    work.areStored = work.levels != nullptr;
-    if (!work.areStored)
-    {
-      return false;
-    }
   }
   takeRequests(known->surface, asked, work);
   work.sized.key = known->key;
@@ -354,7 +297,6 @@ void remember(ResultKey key, const Settling& work)
   stored->surface.setRequests({});
   stored->key = work.sized.key;
   stored->simplified = made.details;
-  stored->hasFollowed = made.run && made.run->levels.hasFollowed();
   const std::size_t bytes = bytesOf(stored->surface);
   work.store->put(key, std::move(stored), bytes);
 }
@@ -408,7 +350,7 @@ void addRest(bool mayBeSimplified, Settled& made)
 Settled settle(SizedSurface& sized, const RemeshOptions& options, ResultStore* store, bool isRest)
 {
   const bool takesAll = isRest || options.smallDetails == SmallDetails::Simplify;
-  Settling work{ sized, options, store, isRest, takesAll, {}, nullptr };
+  Settling work{ sized, options, store, isRest, takesAll, {} };
   if (maySimplify(options))
   {
     work.made.status = simplify(work);

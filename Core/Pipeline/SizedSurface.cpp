@@ -258,22 +258,6 @@ SizedSurface finished(
   return sized;
 }
 
-/// Of each vertex a number that tells the vertices which its features and boundaries lead to.
-std::vector<ResultKey> endsOfConstraints(const Mesh& mesh)
-{
-  std::vector<ResultKey> ends(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    if (mesh.isConstrained(h))
-    {
-      ends[mesh.origin[h]] += KeyMaker(mesh.target(h)).key();
-      ends[mesh.target(h)] += KeyMaker(mesh.origin[h]).key();
-    }
-  }
-  return ends;
-}
-
 /// Features that are cleared or drawn, on the sized surface: its triangles are no larger than quads, and their parts
 /// neither.
 void addFeatures(const DrawnRequests& drawn, const RemeshOptions& options, PreparedSurface& surface,
@@ -285,7 +269,6 @@ void addFeatures(const DrawnRequests& drawn, const RemeshOptions& options, Prepa
   }
   const double start = secondsNow();
   const std::size_t before = surface.mesh.faceCount();
-  const std::vector<ResultKey> ends = endsOfConstraints(surface.mesh);
   clearDrawn(surface, drawn.cleared, sized.edgeLength, sized.notices);
   if (!drawn.features.empty())
   {
@@ -295,9 +278,6 @@ void addFeatures(const DrawnRequests& drawn, const RemeshOptions& options, Prepa
   splitEnclosedFaces(surface);
   splitChords(surface);
   surface.hash = contentHash(surface.mesh, options.threads);
-  const std::vector<ResultKey> endsNow = endsOfConstraints(surface.mesh);
-  sized.own.changed = idsWhere(ends.size(), [&](Index v) { return ends[v] != endsNow[v]; });
-  sized.own.features = surface.hash;
   sized.key = KeyMaker(sized.key).add(surface.hash).key();
   sized.stages.add("draw", secondsNow() - start, before, surface.mesh.faceCount());
 }
@@ -306,14 +286,9 @@ void addFeatures(const DrawnRequests& drawn, const RemeshOptions& options, Prepa
 void addValences(const std::vector<ValencePlace>& valences, const RemeshOptions& options,
   PreparedSurface& surface, SizedSurface& sized)
 {
-  const AddedVertices added =
-    drawValences(surface, valences, sized.edgeLength, options.threads, sized.notices);
-  sized.key =
-    added == AddedVertices::None ? sized.key : KeyMaker(sized.key).add(surface.hash).key();
-  if (added == AddedVertices::OnFeatures)
+  if (drawValences(surface, valences, sized.edgeLength, options.threads, sized.notices))
   {
-    sized.starsKey = sized.key;
-    sized.own = { surface.mesh.vertexCount(), {}, 0 };
+    sized.key = KeyMaker(sized.key).add(surface.hash).key();
   }
 }
 
@@ -321,8 +296,6 @@ void addValences(const std::vector<ValencePlace>& valences, const RemeshOptions&
 void addDrawn(const SurfaceInput& input, const RemeshOptions& options, PreparedSurface& surface,
   SizedSurface& sized)
 {
-  sized.starsKey = sized.key;
-  sized.own = { surface.mesh.vertexCount(), {}, 0 };
   if (sized.status.ok())
   {
     addFeatures(input.drawn, options, surface, sized);

@@ -6,7 +6,6 @@
 
 #include "Base/Error.h"
 #include "Features/GivenUpFeatures.h"
-#include "Hierarchy/OwnVertices.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/ResultStore.h"
@@ -40,8 +39,6 @@ struct SizedSurface : SizeReport
   bool hasBeside =
     false;           ///< faces beside it are filled: quads of both are improved when they are one
   ResultKey key = 0; ///< of all but guides and valences
-  ResultKey starsKey = 0; ///< see PlannedSurface
-  OwnVertices own;        ///< the same
   /// Components that become the smallest blocks of quads, and a word on them, see countBlocks.
   std::vector<SmallDetail> blocks;
   std::string blocksNotice;

@@ -450,11 +450,6 @@ void refineSurface(
     {
       orderSurface(surface, threads);
     }
-    else if (surface.namesBefore)
-    {
-      surface.namesBefore->face.resize(surface.mesh.faceCount(), kInvalidIndex);
-      surface.namesBefore->vertex.resize(surface.mesh.vertexCount(), kInvalidIndex);
-    }
   }
   surface.hash = contentHash(surface.mesh, threads); // the caller may have changed features before
   report(progress, 1, "Surface refined");

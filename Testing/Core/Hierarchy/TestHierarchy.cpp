@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Hierarchy/SharedStars.h"
 #include "Mesh/SurfaceEdit.h"
 #include "MeshInput.h"
 #include "Prepare/Prepare.h"
@@ -486,27 +485,6 @@ TEST(Hierarchy, RedecimationKnowsTheCostsThatItHadBefore)
   options.keepVertices = { levels.hierarchy().intermediate.fineVertex[100] };
   const CacheReport near = levels.update(options).cache;
   EXPECT_GT(near.hits * 2, near.lookups);
-}
-
-/// A vertex more in a face: other stars are what they were, whatever the new one has been called before.
-TEST(Hierarchy, ASurfaceWithAVertexMoreKnowsTheStarsOfTheOneWithout)
-{
-  const PreparedSurface surface = prepareSurface(toInput(bumpySphere(5)), {});
-  HierarchyOptions options = makeOptions(0.1, 200);
-  HierarchyOptions shared = options;
-  shared.stars = std::make_shared<SharedStars>();
-  shared.own.shared = surface.mesh.vertexCount();
-  Redecimation(surface.mesh, 1, shared).update(shared);
-  for (const Index f : { 100U, 2000U })
-  {
-    PreparedSurface more = surface;
-    options.keepVertices = shared.keepVertices = { splitFace(more, f) };
-    const Hierarchy alone = Redecimation(more.mesh, 2, options).update(options);
-    const Hierarchy known = Redecimation(more.mesh, 2, shared).update(shared);
-    EXPECT_EQ(known.log.serialize(), alone.log.serialize());
-    EXPECT_LT(2 * alone.cache.hits, alone.cache.lookups);
-    EXPECT_GT(2 * known.cache.hits, known.cache.lookups);
-  }
 }
 
 /// Rough surfaces cost more than the first ceilings allow. What was planned under one of them, with the same guards, is

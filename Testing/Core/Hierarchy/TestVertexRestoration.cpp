@@ -107,7 +107,7 @@ TEST(VertexRestoration, AllRemovalsUndoneGiveTheFinestMesh)
     const Thinned thinned = thinOut(mesh, 0.15 * diameter(mesh));
     const std::vector<Index> removed = removedVertices(mesh, thinned.level);
     ASSERT_GT(removed.size(), mesh.position.size() / 2);
-    const auto removals = removalsFrom(thinned.log, LogPlaces(thinned.log), removed);
+    const auto removals = removalsFrom(thinned.log, removed);
     EXPECT_EQ(removals.size(), thinned.log.collapses);
     const RestoredLevel restored =
       undoRemovals(mesh, thinned.level, thinned.curveError, thinned.log, removals);
@@ -130,7 +130,7 @@ TEST(VertexRestoration, UndoesWhatDependsOnAVertexOnly)
     const std::vector<Index> removed = removedVertices(mesh, thinned.level);
     for (std::size_t i = 3; i < removed.size(); i += removed.size() / 7)
     {
-      const auto removals = removalsFrom(thinned.log, LogPlaces(thinned.log), { removed[i] });
+      const auto removals = removalsFrom(thinned.log, { removed[i] });
       EXPECT_LT(removals.size(), removed.size()) << "of vertex " << removed[i];
       const RestoredLevel restored =
         undoRemovals(mesh, thinned.level, thinned.curveError, thinned.log, removals);
@@ -153,8 +153,7 @@ TEST(VertexRestoration, TheLogWithoutRemovalsLeadsToTheLevel)
   const Mesh mesh = test::plateWithHole(12);
   const Thinned thinned = thinOut(mesh, 0.1 * diameter(mesh));
   const std::vector<Index> removed = removedVertices(mesh, thinned.level);
-  const auto removals =
-    removalsFrom(thinned.log, LogPlaces(thinned.log), { removed[removed.size() / 2] });
+  const auto removals = removalsFrom(thinned.log, { removed[removed.size() / 2] });
   const RestoredLevel restored =
     undoRemovals(mesh, thinned.level, thinned.curveError, thinned.log, removals);
   DecimationLog rest = thinned.log;
@@ -162,7 +161,7 @@ TEST(VertexRestoration, TheLogWithoutRemovalsLeadsToTheLevel)
   EXPECT_EQ(rest.collapses + removals.size(), thinned.log.collapses);
   // What is left undone as well leads to the finest mesh, so the rest was a log of just this level.
   std::vector<Index> stillRemoved = removedVertices(mesh, restored.level);
-  const auto others = removalsFrom(rest, LogPlaces(rest), stillRemoved);
+  const auto others = removalsFrom(rest, stillRemoved);
   EXPECT_EQ(others.size(), rest.collapses);
   const RestoredLevel finest =
     undoRemovals(mesh, restored.level, restored.curveError, rest, others);
