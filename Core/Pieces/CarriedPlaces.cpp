@@ -3,8 +3,9 @@
 #include "Pieces/CarriedPlaces.h"
 
 #include "Base/LargeArray.h"
+#include "Base/Parallel.h"
 #include "Base/Refuse.h"
-#include "Pieces/PlaneStar.h"
+#include "Transfer/PlaneReplay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,36 @@ namespace quadrille
 {
 namespace
 {
+
+/// A point of a plane, in single precision: coordinates are those of one triangle of the level, and what is fine
+/// against it still has three digits where a million triangles lie on it.
+struct FlatPoint
+{
+  float x = 0, y = 0;
+
+  friend FlatPoint operator+(FlatPoint a, FlatPoint b) { return { a.x + b.x, a.y + b.y }; }
+  friend FlatPoint operator-(FlatPoint a, FlatPoint b) { return { a.x - b.x, a.y - b.y }; }
+  /// As complex numbers: the first one rotates where it has length 1.
+  friend FlatPoint operator*(FlatPoint a, FlatPoint b)
+  {
+    return { a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x };
+  }
+};
+
+float planeCross(FlatPoint a, FlatPoint b)
+{
+  return a.x * b.y - a.y * b.x;
+}
+
+Complex wide(FlatPoint p)
+{
+  return { p.x, p.y };
+}
+
+FlatPoint flat(Complex p)
+{
+  return { static_cast<float>(p.real()), static_cast<float>(p.imag()) };
+}
 
 FlatPoint conjugate(FlatPoint p)
 {
@@ -46,6 +77,83 @@ struct FlatCharts
     return { w * difference.x, w * difference.y };
   }
 };
+
+/// A triangle that a point may go to.
+struct PlaneTriangle
+{
+  Index slot = kInvalidIndex; ///< of the first corner
+  std::array<FlatPoint, 3> corner{};
+
+  /// Barycentric coordinates of p, in the order of the corners; not finite for a triangle without area.
+  std::array<double, 3> weightsOf(FlatPoint p) const
+  {
+    const double area = planeCross(corner[1] - corner[0], corner[2] - corner[0]);
+    const double second = double{ planeCross(p - corner[0], corner[2] - corner[0]) } / area;
+    const double third = double{ planeCross(corner[1] - corner[0], p - corner[0]) } / area;
+    return { 1 - second - third, second, third };
+  }
+  /// The least of them: below 0 outside. Triangles without area hold nothing, nor do inverted ones.
+  double depthOf(FlatPoint p) const
+  {
+    if (!(planeCross(corner[1] - corner[0], corner[2] - corner[0]) > 0))
+    {
+      return -std::numeric_limits<double>::infinity();
+    }
+    const std::array<double, 3> weights = weightsOf(p);
+    return std::min({ weights[0], weights[1], weights[2] });
+  }
+};
+
+/// The triangle that holds p, or that it is least far outside of; null where none has an area.
+const PlaneTriangle* triangleOf(const std::vector<PlaneTriangle>& triangles, FlatPoint p)
+{
+  const PlaneTriangle* best = nullptr;
+  double depth = -std::numeric_limits<double>::infinity();
+  for (const PlaneTriangle& triangle : triangles)
+  {
+    const double ofThis = triangle.depthOf(p);
+    if (ofThis > depth)
+    {
+      depth = ofThis;
+      best = &triangle;
+    }
+  }
+  return best;
+}
+
+using Ring = std::array<FlatPoint, kMaximumRing + 1>;
+
+/// The triangles of the star of a record's vertex at p, in its ring.
+void layOutStar(const CollapseRecord& record, const Ring& ring, FlatPoint p,
+  std::vector<PlaneTriangle>& triangles)
+{
+  // Of an interior star the end of the ring is its beginning, the target.
+  const auto count = static_cast<std::size_t>(record.ringSize());
+  triangles.clear();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(record.faces); ++i)
+  {
+    triangles.push_back({ record.slot[i], { p, ring[i], ring[(i + 1) % count] } });
+  }
+}
+
+/// p, or where that would invert the star a point in its kernel, if there is one.
+FlatPoint intoStar(const CollapseRecord& record, const Ring& ring, FlatPoint p)
+{
+  const auto count = static_cast<std::size_t>(record.ringSize());
+  bool isPositive = true;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(record.faces); ++i)
+  {
+    isPositive = isPositive && planeCross(ring[i] - p, ring[(i + 1) % count] - p) > 0;
+  }
+  if (isPositive)
+  {
+    return p;
+  }
+  std::array<Complex, kMaximumRing + 1> wideRing;
+  std::transform(
+    ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(count), wideRing.begin(), wide);
+  return flat(intoKernel(wideRing.data(), record, wide(p)));
+}
 
 /// Places of all faces: lists through one array, so that blocks of a round, which share no face, may change theirs side
 /// by side.
@@ -122,8 +230,8 @@ private:
   {
     for (const Moving& moving : moving_)
     {
-      const PlaneTriangle<FlatPoint>* const held = triangleOf(triangles_, moving.at);
-      const PlaneTriangle<FlatPoint>* const best = held != nullptr ? held : triangles_.data();
+      const PlaneTriangle* const held = triangleOf(triangles_, moving.at);
+      const PlaneTriangle* const best = held != nullptr ? held : triangles_.data();
       carried_.at[moving.place] =
         toFace(static_cast<std::size_t>(best - triangles_.data()), moving.at);
       carried_.lists.put(best->slot / 3, moving.place);
@@ -198,11 +306,31 @@ private:
   StarReplay<FlatCharts> star_;
   CollapseRecord record_;
   std::vector<Moving> moving_;
-  std::vector<PlaneTriangle<FlatPoint>> triangles_;
+  std::vector<PlaneTriangle> triangles_;
 };
 
 /// Weights below it are rounding of single precision: the place is on the edge, or at the corner.
 constexpr double kOnEdgeOfSingle = 1e-5;
+
+/// None below 0, sum 1.
+std::array<double, 3> insideWeights(std::array<double, 3> weights)
+{
+  double sum = 0;
+  for (double& weight : weights)
+  {
+    weight = weight > kOnEdgeOfSingle ? weight : 0; // also where it is no number
+    sum += weight;
+  }
+  if (!(sum > 0) || !(sum <= std::numeric_limits<double>::max()))
+  {
+    return { 1.0 / 3, 1.0 / 3, 1.0 / 3 };
+  }
+  for (double& weight : weights)
+  {
+    weight /= sum;
+  }
+  return weights;
+}
 
 void check(const Level& level, const DecimationLog& log, std::size_t rounds,
   const std::vector<FacePlace>& places)
@@ -214,19 +342,14 @@ void check(const Level& level, const DecimationLog& log, std::size_t rounds,
   refuseIf(!isOfLog, "A level of ", level.mesh.faceCount(), " faces after ", rounds,
     " rounds is not one of the decimation log, of ", log.rounds.size(), " rounds for ",
     log.fineFaces, " faces.");
-  requirePlaces(level, places);
-}
-
-} // namespace
-
-void requirePlaces(const Level& level, const std::vector<FacePlace>& places)
-{
   for (const FacePlace& place : places)
   {
     refuseIf(place.face >= level.mesh.faceCount(), "A place is on face ", place.face,
       ", but the level has ", level.mesh.faceCount(), " faces.");
   }
 }
+
+} // namespace
 
 std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log, std::size_t rounds,
   const std::vector<FacePlace>& places, int threads, const ProgressCallback& progress)
@@ -239,14 +362,8 @@ std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log,
   {
     pollNowAndThen(f);
     const std::array<Complex, 3> corners = layOut(level.mesh, f);
-    std::transform(corners.begin(), corners.end(),
-      &carried.corner[3 * std::size_t{ level.fineFace[f] }],
-      [](Complex p)
-      {
-        FlatPoint flat;
-        convert(p, flat);
-        return flat;
-      });
+    std::transform(
+      corners.begin(), corners.end(), &carried.corner[3 * std::size_t{ level.fineFace[f] }], flat);
   }
   for (std::size_t i = 0; i < places.size(); ++i)
   {
@@ -260,8 +377,14 @@ std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log,
     }
     carried.lists.put(face, static_cast<Index>(i));
   }
-  carryBackwards(log, rounds, threads, progress,
-    [&](const BlockRecords& records) { BlockCarrier(carried).run(records); });
+  for (std::size_t round = rounds; round-- > 0;)
+  {
+    report(progress, static_cast<double>(rounds - round) / static_cast<double>(rounds + 1),
+      "carrying points to the surface");
+    const DecimationLog::Round& blocks = log.rounds[round];
+    parallelForEach(blocks.blockCount, 1, threads,
+      [&](std::size_t block) { BlockCarrier(carried).run(log.blocks[blocks.firstBlock + block]); });
+  }
   std::vector<FacePlace> result(places.size());
   for (Index f = 0; f < log.fineFaces; ++f)
   {
@@ -270,9 +393,7 @@ std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log,
     {
       const FlatPoint* const p = &carried.corner[3 * std::size_t{ f }];
       result[i] = { f,
-        insideWeights(
-          PlaneTriangle<FlatPoint>{ 3 * f, { p[0], p[1], p[2] } }.weightsOf(carried.at[i]),
-          kOnEdgeOfSingle) };
+        insideWeights(PlaneTriangle{ 3 * f, { p[0], p[1], p[2] } }.weightsOf(carried.at[i])) };
     }
   }
   return result;

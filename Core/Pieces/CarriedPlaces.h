@@ -26,11 +26,4 @@ struct FacePlace
 std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log, std::size_t rounds,
   const std::vector<FacePlace>& places, int threads, const ProgressCallback& progress);
 
-/// The same from the level that the whole log leads to, where the finest mesh is there: each star is laid out as it
-/// lies in space, only where it has places, so that nothing has to be known of others but their vertices. A third of
-/// the time. The corners of `fine` become those of the level and, with the log, what they were; a stop leaves them in
-/// between.
-std::vector<FacePlace> carryPlaces(Mesh& fine, const Level& level, const DecimationLog& log,
-  const std::vector<FacePlace>& places, int threads, const ProgressCallback& progress);
-
 } // namespace quadrille

@@ -133,7 +133,7 @@ ThinnedSurface::Places ThinnedSurface::carry(const QuadMesh& quads, const Prepar
   made.ofQuads.resize(quads.quads.size());
   const PlacesOfQuads found = placesOfQuads(mapped, quads, source);
   const std::vector<FacePlace> onFine =
-    carryPlaces(fine_.mesh, level_, log_, found.places, threads, progress);
+    carryPlaces(level_, log_, log_.rounds.size(), found.places, threads, progress);
   log_ = {};
   for (std::size_t i = 0; i < onFine.size(); ++i)
   {

@@ -37,6 +37,11 @@ struct Thinned
     }
   }
 
+  std::vector<FacePlace> carry(int threads) const
+  {
+    return carryPlaces(made.intermediate, made.log, made.log.rounds.size(), places, threads, {});
+  }
+
   static Vector3 placeOn(const Mesh& mesh, const FacePlace& at)
   {
     Vector3 place = Vector3::Zero();
@@ -67,8 +72,7 @@ TEST(CarriedPlaces, PointsOfAPlaneStay)
 {
   Thinned thinned(gridPlane(60, 60), 4);
   ASSERT_LT(2 * thinned.made.intermediate.mesh.faceCount(), thinned.fine.faceCount());
-  const std::vector<FacePlace> carried =
-    carryPlaces(thinned.fine, thinned.made.intermediate, thinned.made.log, thinned.places, 1, {});
+  const std::vector<FacePlace> carried = thinned.carry(1);
   expectWeights(carried, thinned.fine);
   for (std::size_t i = 0; i < carried.size(); ++i)
   {
@@ -81,10 +85,7 @@ TEST(CarriedPlaces, PointsOfAPlaneStay)
 TEST(CarriedPlaces, VerticesOfTheLevelAreThoseOfTheSurface)
 {
   Thinned thinned(torus(120, 60, 2, 1), 0.3);
-  const std::vector<Index> corners = thinned.fine.origin;
-  const std::vector<FacePlace> carried =
-    carryPlaces(thinned.fine, thinned.made.intermediate, thinned.made.log, thinned.places, 1, {});
-  EXPECT_EQ(thinned.fine.origin, corners); // the log has brought all of them back
+  const std::vector<FacePlace> carried = thinned.carry(1);
   expectWeights(carried, thinned.fine);
   const Mesh& level = thinned.made.intermediate.mesh;
   for (std::size_t i = 2; i < carried.size(); i += 3)
@@ -95,34 +96,11 @@ TEST(CarriedPlaces, VerticesOfTheLevelAreThoseOfTheSurface)
   }
 }
 
-/// Both ways to lay stars out lead to places that are near each other against the triangles of the level.
-TEST(CarriedPlaces, NearThoseOfChartsOfTheLevel)
-{
-  Thinned thinned(torus(120, 60, 2, 1), 0.3);
-  const Hierarchy& made = thinned.made;
-  const std::vector<FacePlace> byCharts =
-    carryPlaces(made.intermediate, made.log, made.log.rounds.size(), thinned.places, 1, {});
-  const std::vector<FacePlace> byStars =
-    carryPlaces(thinned.fine, made.intermediate, made.log, thinned.places, 1, {});
-  double sum = 0;
-  for (std::size_t i = 0; i < byStars.size(); ++i)
-  {
-    const double distance =
-      (Thinned::placeOn(thinned.fine, byStars[i]) - Thinned::placeOn(thinned.fine, byCharts[i]))
-        .norm();
-    EXPECT_LT(distance, 0.3);
-    sum += distance;
-  }
-  EXPECT_LT(sum / static_cast<double>(byStars.size()), 0.03); // a tenth of an edge
-}
-
 TEST(CarriedPlaces, TheSameForAnyNumberOfThreads)
 {
   Thinned thinned(torus(300, 150, 2, 1), 0.1);
-  const std::vector<FacePlace> one =
-    carryPlaces(thinned.fine, thinned.made.intermediate, thinned.made.log, thinned.places, 1, {});
-  const std::vector<FacePlace> four =
-    carryPlaces(thinned.fine, thinned.made.intermediate, thinned.made.log, thinned.places, 4, {});
+  const std::vector<FacePlace> one = thinned.carry(1);
+  const std::vector<FacePlace> four = thinned.carry(4);
   ASSERT_EQ(one.size(), four.size());
   for (std::size_t i = 0; i < one.size(); ++i)
   {
@@ -131,17 +109,14 @@ TEST(CarriedPlaces, TheSameForAnyNumberOfThreads)
   }
 }
 
-TEST(CarriedPlaces, RefusesAnotherMesh)
+TEST(CarriedPlaces, RefusesAnotherLevel)
 {
   Thinned thinned(gridPlane(20, 20), 4);
-  Mesh other = gridPlane(21, 21);
-  EXPECT_THROW(
-    carryPlaces(other, thinned.made.intermediate, thinned.made.log, thinned.places, 1, {}),
-    InvalidInput);
   thinned.places[0].face = thinned.made.intermediate.mesh.faceCount();
-  EXPECT_THROW(
-    carryPlaces(thinned.fine, thinned.made.intermediate, thinned.made.log, thinned.places, 1, {}),
-    InvalidInput);
+  EXPECT_THROW(thinned.carry(1), InvalidInput);
+  thinned.places[0].face = 0;
+  thinned.made.intermediate.fineFace[0] = thinned.fine.faceCount();
+  EXPECT_THROW(thinned.carry(1), InvalidInput);
 }
 
 } // namespace
