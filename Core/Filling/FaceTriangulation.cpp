@@ -45,8 +45,7 @@ public:
     {
       onBoundary_[face.origin[h]] |= face.isBoundary(h) ? 1 : 0;
     }
-    result_.surface.mesh.sizing =
-      std::vector<float>(ground.sizes().begin(), ground.sizes().end());
+    result_.surface.mesh.sizing = std::vector<float>(ground.sizes().begin(), ground.sizes().end());
   }
 
   FaceTriangles run()

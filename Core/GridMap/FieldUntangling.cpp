@@ -19,7 +19,7 @@ constexpr int kMostNewtonSteps = 100;
 /// Of the whole map: what is left after these is a matter of some places.
 constexpr int kStepsOfWhole = 30;
 /// Of the map near such places: so many rings of triangles round each, which have this many times the weight next to
-/// it, and that times as much where it did not help.
+/// it, in each round again.
 constexpr int kRings = 8;
 /// All of it together may take as much work as the whole map took times this: what takes longer is no matter of places.
 constexpr std::size_t kWorkNearby = 2;
@@ -80,7 +80,7 @@ public:
   Untangling(const Mesh& mesh, const CrossField& field, const UntangleProblem& problem,
     const Snap& snap, const ProgressCallback& progress, int maximumSteps)
     : mesh_(mesh), field_(field), problem_(problem), snap_(snap), maximumSteps_(maximumSteps),
-      options_(fieldUntangleOptions(progress))
+      options_(fieldUntangleOptions(progress)), weight_(problem.weight)
   {
   }
 
@@ -150,7 +150,6 @@ private:
     try
     {
       const WorkScope scope(mostWork);
-      double weight = kStiffening;
       for (int idle = 0; !best_.defects.none() && idle < kIdleRounds;)
       {
         options_.maximumSteps = mayTake(kMostNewtonSteps);
@@ -159,9 +158,7 @@ private:
           return;
         }
         countTry(Try::MoreWeight);
-        const bool isBetter = keepIfBetter(nearby(weight));
-        weight = isBetter ? kStiffening : weight * kStiffening;
-        idle = isBetter ? 0 : idle + 1;
+        idle = keepIfBetter(nearby()) ? 0 : idle + 1;
       }
     }
     catch (const WorkSpent&)
@@ -173,8 +170,8 @@ private:
     }
   }
 
-  /// The map near its defects again, from its references with so much more weight next to them; all else is held.
-  UntangleResult nearby(double weight) const
+  /// The map near its defects again, from its references with more weight next to them; all else is held.
+  UntangleResult nearby()
   {
     const std::vector<int> ring = ringsFrom(mesh_, verticesOf(mesh_, best_.defects), kRings);
     std::vector<std::uint8_t> isNear(static_cast<std::size_t>(problem_.basis.rows()) / 2, 0);
@@ -189,8 +186,8 @@ private:
       if (f < mesh_.faceCount())
       {
         const Index* v = &mesh_.origin[3 * f];
-        local.problem.weight[t] *=
-          std::min({ ring[v[0]], ring[v[1]], ring[v[2]] }) <= 1 ? weight : 1;
+        weight_[f] *= std::min({ ring[v[0]], ring[v[1]], ring[v[2]] }) <= 1 ? kStiffening : 1;
+        local.problem.weight[t] = weight_[f];
       }
     }
     UntangleResult result = untangle(local.problem, fitReferences(local.problem), options_);
@@ -204,6 +201,7 @@ private:
   const Snap& snap_;
   int maximumSteps_;
   UntangleOptions options_;
+  std::vector<double> weight_; ///< of all rounds nearby, per triangle
   FieldUntangling best_;
 };
 
