@@ -19,8 +19,8 @@ thread_local PlaceFold* currentPlaceFold = nullptr;
 /// What a stream takes by default.
 constexpr int kLeastDigits = 6;
 constexpr int kMostDigits = 17;
-/// Shares of the unit below it are what rounding has left of zero.
-constexpr double kLeastShareOfUnit = 1e-9;
+/// Of the largest coordinate: what is less is what rounding has left of zero.
+constexpr double kRoundedShare = 1e-12;
 
 /// Of places that lie `unit` from each other at most.
 int digitsFor(double magnitude, double unit)
@@ -71,14 +71,14 @@ std::string placeText(const Vector3& p)
   if (const PlaceScope* scope = currentPlaceScope)
   {
     place = scope->centre_ + scope->unit_ * scope->sign_.cwiseProduct(p);
-    const double least = kLeastShareOfUnit * scope->unit_;
-    place = place.unaryExpr([least](double x) { return std::abs(x) < least ? 0.0 : x; });
     text.precision(digitsFor(scope->centre_.cwiseAbs().maxCoeff(), scope->unit_));
   }
   if (currentPlaceFold != nullptr)
   {
     place = currentPlaceFold->fold_(place);
   }
+  const double least = kRoundedShare * place.cwiseAbs().maxCoeff();
+  place = place.unaryExpr([least](double x) { return std::abs(x) < least ? 0.0 : x; });
   text << "(" << place.x() << ", " << place.y() << ", " << place.z() << ")";
   return text.str();
 }
