@@ -100,7 +100,7 @@ public:
       countTryLed(Try::MoreWeight);
       // From a valid map no vertex can change its winding any more: without the weights, until that has converged.
       options_.polishSteps = options_.maximumSteps = kMostNewtonSteps;
-      keep(ofWhole(best_.y));
+      best_ = mapOf(ofWhole(best_.y));
     }
     return std::move(best_);
   }
@@ -124,25 +124,27 @@ private:
     }
   }
 
-  void keep(UntangleResult&& result)
+  /// With the steps of all attempts.
+  FieldUntangling mapOf(UntangleResult&& result) const
   {
-    best_.newtonSteps += result.steps;
-    best_.uv = snap_(result.y);
-    best_.y = std::move(result.y);
-    best_.defects = findDefects(mesh_, field_, best_.uv);
+    FieldUntangling map;
+    map.uv = snap_(result.y);
+    map.y = std::move(result.y);
+    map.defects = findDefects(mesh_, field_, map.uv);
+    map.newtonSteps = best_.newtonSteps + result.steps;
+    return map;
   }
 
   bool keepIfBetter(UntangleResult&& result)
   {
-    FieldUntangling before = best_;
-    keep(std::move(result));
-    if (before.uv.empty() || best_.defects.count() < before.defects.count())
+    FieldUntangling map = mapOf(std::move(result));
+    const bool isBetter = best_.uv.empty() || map.defects.count() < best_.defects.count();
+    best_.newtonSteps = map.newtonSteps;
+    if (isBetter)
     {
-      return true;
+      best_ = std::move(map);
     }
-    before.newtonSteps = best_.newtonSteps;
-    best_ = std::move(before);
-    return false;
+    return isBetter;
   }
 
   void mendNearby(std::size_t mostWork)
