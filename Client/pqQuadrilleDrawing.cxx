@@ -366,6 +366,10 @@ bool pqQuadrilleDrawing::eventFilter(QObject* watched, QEvent* event)
   const bool isNumber = isPlain && this->Current == Tool::Valence && this->View &&
     key->key() >= Qt::Key_2 && key->key() <= Qt::Key_8 &&
     isIn(QApplication::focusWidget(), this->View->widget());
+  if (!isEscape && this->IsBusy)
+  {
+    this->finish(); // the key is for what comes of it
+  }
   if (!isEscape && !isNumber)
   {
     return this->Superclass::eventFilter(watched, event);

@@ -133,20 +133,18 @@ void pqQuadrilleRun::startPreview(vtkSMSourceProxy* filter, Then then)
 void pqQuadrilleRun::follow(vtkSMSourceProxy* filter)
 {
   prepare(filter);
+  this->holdSaving();
   QTimer::singleShot(0, this,
     [this, executed = vtkWeakPointer<vtkSMSourceProxy>(filter)]
     {
-      if (!executed || this->Filter == executed)
+      if (executed && this->Filter != executed)
       {
-        return;
+        ask(executed, "GetIsToBeTaken") != 0 ? this->start(executed, undoIfStopped)
+                                             : invoke(executed, "SetInBackground", 0);
       }
-      if (ask(executed, "GetIsToBeTaken") != 0)
+      if (!this->Filter)
       {
-        this->start(executed, undoIfStopped);
-      }
-      else
-      {
-        invoke(executed, "SetInBackground", 0);
+        this->releaseSaving();
       }
     });
 }
@@ -167,9 +165,10 @@ void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
     this->show();
     return;
   }
-  if (this->IsTold) // something can be drawn meanwhile
+  if (this->IsTold)
   {
-    renderActive();
+    this->holdSaving();
+    renderActive(); // something can be drawn meanwhile
   }
   if (!this->Timer.isActive())
   {
@@ -191,7 +190,6 @@ void pqQuadrilleRun::look()
   }
   else if (this->IsTold)
   {
-    this->holdSaving();
     quadrille::say(QString("Making quads: %1 %. Escape stops it.")
                      .arg(ask(this->Filter, "GetUnderwayProgress")));
   }
@@ -239,21 +237,22 @@ void pqQuadrilleRun::stop()
 //-----------------------------------------------------------------------------
 void pqQuadrilleRun::holdSaving()
 {
-  if (this->Saving.empty())
+  if (!this->Saving.empty())
   {
-    for (QObject* object : pqCoreUtilities::mainWidget()->findChildren<QObject*>())
-    {
-      if (object->inherits("pqSaveDataReaction"))
-      {
-        this->Saving.emplace_back(object);
-      }
-    }
+    return; // by the run whose place this one takes
   }
-  for (const QPointer<QObject>& reaction : this->Saving)
+  for (QAction* action : pqCoreUtilities::mainWidget()->findChildren<QAction*>())
   {
-    if (auto* action = reaction ? qobject_cast<QAction*>(reaction->parent()) : nullptr)
+    for (QObject* reaction : action->children())
     {
-      action->setEnabled(false); // ParaView makes it live again whenever something is selected
+      if (reaction->inherits("pqSaveDataReaction"))
+      {
+        // ParaView makes it live again whenever something is selected.
+        const auto makeGrey = [action] { action->setEnabled(false); };
+        this->Saving.push_back(
+          { reaction, QObject::connect(action, &QAction::changed, this, makeGrey) });
+        makeGrey();
+      }
     }
   }
 }
@@ -261,11 +260,12 @@ void pqQuadrilleRun::holdSaving()
 //-----------------------------------------------------------------------------
 void pqQuadrilleRun::releaseSaving()
 {
-  for (const QPointer<QObject>& reaction : std::exchange(this->Saving, {}))
+  for (const HeldAction& held : std::exchange(this->Saving, {}))
   {
-    if (reaction)
+    QObject::disconnect(held.Hold);
+    if (held.Reaction)
     {
-      QMetaObject::invokeMethod(reaction, "updateEnableState");
+      QMetaObject::invokeMethod(held.Reaction, "updateEnableState");
     }
   }
 }

@@ -73,8 +73,15 @@ private:
   QTimer Timer;
   vtkWeakPointer<vtkSMSourceProxy> Filter; ///< whose run is not over
   std::vector<Then> Waiting;
-  bool IsTold = false;                   ///< in the tool bar
-  std::vector<QPointer<QObject>> Saving; ///< ParaView's reactions of Save Data
+  bool IsTold = false; ///< in the tool bar
+
+  /// An action for Save Data that is grey.
+  struct HeldAction
+  {
+    QPointer<QObject> Reaction;   ///< ParaView's, which knows whether it is live otherwise
+    QMetaObject::Connection Hold; ///< makes it grey again
+  };
+  std::vector<HeldAction> Saving;
 };
 
 #endif

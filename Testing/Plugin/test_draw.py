@@ -521,29 +521,49 @@ def check_stop(session, chance):
     return bad
 
 
-def save_dialogs(session):
-    """What Ctrl+S opens, closed again: the number of its windows."""
-    session.xdotool("mousemove", *session.middle(), "key", "ctrl+s", "sleep", 1)
-    found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "Save File"], capture_output=True,
-                           env=dict(os.environ, DISPLAY=session.display), check=False).stdout.split()
+def save_dialogs(session, least, *actions):
+    """How many windows Ctrl+S after the actions has opened once the window is idle, or there are so many; closed again.
+    """
+    session.xdotool(*actions, "key", "ctrl+s")
+    session.ask("pass")
+    end = time.time() + 30
+    while True:
+        time.sleep(0.5)
+        found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "Save File"], capture_output=True,
+                               env=dict(os.environ, DISPLAY=session.display), check=False).stdout.split()
+        if len(found) >= least or time.time() > end:
+            break
     if found:
         session.xdotool("key", "Escape", "sleep", 0.5)
     return len(found)
 
 
 def check_save(session, chance):
-    """While quads are made those from before cannot be saved by Save Data; afterwards the new ones can."""
+    """While quads are made those from before cannot be saved by Save Data, also not at once; afterwards the new ones
+    can."""
     make_busy(session)
     session.take("Valence")
-    session.xdotool("mousemove", *session.screen(session.places(chance, 1)[0][0]), "sleep", 0.2, "click", 1)
-    session.wait_until("not is_made()")
-    meanwhile = save_dialogs(session)
+    place = session.screen(session.places(chance, 1)[0][0])
+    meanwhile = save_dialogs(session, 0, "mousemove", *place, "sleep", 0.2, "click", 1)
     underway = not session.value("is_made()")
     session.settle()
-    afterwards = save_dialogs(session)
+    afterwards = save_dialogs(session, 1)
     session.xdotool("key", "Escape")
     print(f"Save Data while quads are made ({underway}): {meanwhile} dialogs, afterwards {afterwards}")
     return not (underway and meanwhile == 0 and afterwards == 1)
+
+
+def selected_row(session, seconds=20):
+    """The upper left corner of the row of the pipeline that is selected; the window may still have to draw it."""
+    end = time.time() + seconds
+    while time.time() < end:
+        rows = session.rows()
+        for y in range(200, 420):
+            for x in range(30, 280, 4):
+                if rows[y][3 * x:3 * x + 3] == SELECTED:
+                    return x, y
+        time.sleep(0.2)
+    return None, None
 
 
 def check_delete(session, chance):
@@ -555,9 +575,7 @@ def check_delete(session, chance):
     session.ask("simple.SetActiveSource(quads())")
     session.xdotool("mousemove", *place, "sleep", 0.2, "click", 1)
     session.wait_until("not is_made()")
-    rows = session.rows()
-    x, y = next(((x, y) for y in range(200, 420) for x in range(30, 280, 4) if rows[y][3 * x:3 * x + 3] == SELECTED),
-                (None, None))
+    x, y = selected_row(session)
     if x is None:
         session.shot("draw-not-selected")
         print("no row of the pipeline is selected after a constraint was drawn")
