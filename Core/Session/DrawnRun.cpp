@@ -119,9 +119,9 @@ public:
     }
   }
 
-  SymmetricResult make()
+  UncutResult make()
   {
-    SymmetricResult made = runWithout(isLeftOut_);
+    UncutResult made = runWithout(isLeftOut_);
     const std::vector<PlacedConstraint> ofAll = made_;
     const std::vector<std::string> noticesOfAll = notices_;
     if (fails(made) && (rest_.empty() || fails(runWithout(withFirst(0)))))
@@ -163,14 +163,14 @@ public:
   }
 
 private:
-  static SymmetricResult stopped()
+  static UncutResult stopped()
   {
-    SymmetricResult none;
+    UncutResult none;
     none.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
     return none;
   }
 
-  bool fails(const SymmetricResult& made) const
+  bool fails(const UncutResult& made) const
   {
     const Status& status = made.remeshed.status;
     return !status.ok() && status.code != StatusCode::Cancelled &&
@@ -188,7 +188,7 @@ private:
     return isLeftOut;
   }
 
-  SymmetricResult runWithout(const std::vector<bool>& isLeftOut)
+  UncutResult runWithout(const std::vector<bool>& isLeftOut)
   {
     if (wasStopped_)
     {
@@ -197,7 +197,7 @@ private:
     made_ = placed_;
     notices_.clear();
     SurfaceInput input = withoutDrawn(input_, isLeftOut, made_);
-    SymmetricResult made = asksForMoves(made_)
+    UncutResult made = asksForMoves(made_)
       ? remeshWithMoves(input, options_, run_, known_, made_, notices_)
       : run_(std::move(input), options_);
     wasStopped_ =
@@ -211,7 +211,7 @@ private:
     std::vector<std::string> before;
     std::transform(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(r),
       std::back_inserter(before), [this](std::size_t i) { return nameOfPlaced(placed_[i]); });
-    const SymmetricResult with = runWithout(withFirst(r + 1));
+    const UncutResult with = runWithout(withFirst(r + 1));
     isLeftOut_[rest_[r]] = true;
     whyNot_.emplace_back(rest_[r], cannotBeMet(before, with.remeshed.status.message));
     rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(r));
@@ -261,12 +261,12 @@ SurfaceInput withoutDrawn(const SurfaceInput& input, const std::vector<bool>& is
   return result;
 }
 
-SymmetricResult remeshWithDrawn(const SurfaceInput& input, const RemeshOptions& options,
+UncutResult remeshWithDrawn(const SurfaceInput& input, const RemeshOptions& options,
   const RemeshRun& run, const KnownOfMoves& known, std::vector<PlacedConstraint>& placed,
   std::vector<std::string>& notices)
 {
   DrawnRun drawn(input, options, run, known, placed);
-  SymmetricResult made = drawn.make();
+  UncutResult made = drawn.make();
   drawn.take(placed, notices);
   return made;
 }

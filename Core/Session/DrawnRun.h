@@ -38,7 +38,7 @@ SurfaceInput withoutDrawn(const SurfaceInput& input, const std::vector<bool>& is
   std::vector<PlacedConstraint>& placed);
 
 /// As remeshWithMoves, also where nothing is moved. placed: also gets whyNot of what is left out.
-SymmetricResult remeshWithDrawn(const SurfaceInput& input, const RemeshOptions& options,
+UncutResult remeshWithDrawn(const SurfaceInput& input, const RemeshOptions& options,
   const RemeshRun& run, const KnownOfMoves& known, std::vector<PlacedConstraint>& placed,
   std::vector<std::string>& notices);
 

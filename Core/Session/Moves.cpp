@@ -169,14 +169,14 @@ ResultKey keyOfQuadsBefore(const SurfaceInput& input, const RemeshOptions& optio
   return key.add(settingsText(options), options.decimationCost, options.leavesOutFailed).key();
 }
 
-SymmetricResult runWithoutMoves(
+UncutResult runWithoutMoves(
   const SurfaceInput& input, const RemeshOptions& options, const RemeshRun& run)
 {
   RemeshOptions first = options;
   first.preview = false; // it has no places on the surface
   first.mergeCharts = false;
   first.knownMap = 0;
-  SymmetricResult made = run(input, first);
+  UncutResult made = run(input, first);
   if (!made.remeshed.stopped.empty())
   {
     // Quads without the moves are none that were asked for.
@@ -186,9 +186,9 @@ SymmetricResult runWithoutMoves(
   return made;
 }
 
-SymmetricResult makeMoves(const SurfaceInput& input, const RemeshOptions& options,
-  const RemeshRun& run, const PlacesOfSession& where, const QuadsBefore& before,
-  std::vector<PlacedConstraint>& placed, std::vector<std::string>& notices)
+UncutResult makeMoves(const SurfaceInput& input, const RemeshOptions& options, const RemeshRun& run,
+  const PlacesOfSession& where, const QuadsBefore& before, std::vector<PlacedConstraint>& placed,
+  std::vector<std::string>& notices)
 {
   MoveList list(where, before);
   for (std::size_t i = 0; i < placed.size(); ++i)
@@ -216,7 +216,7 @@ SymmetricResult makeMoves(const SurfaceInput& input, const RemeshOptions& option
       placed[static_cast<std::size_t>(id) - 1].whyNot = composed.parts[c].whyNot;
       last = composed.parts[c].whyNot.empty() ? id : last;
     }
-    SymmetricResult made = run(std::move(composed.input), options);
+    UncutResult made = run(std::move(composed.input), options);
     const std::string whyNot = isForOtherReasons(made.remeshed.status)
       ? lostMapText(made.remeshed.withoutMap, before.fixed.insideOfFaces)
       : made.remeshed.status.message;
@@ -243,7 +243,7 @@ bool asksForMoves(const std::vector<PlacedConstraint>& placed)
   return std::any_of(placed.begin(), placed.end(), isMove);
 }
 
-SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
+UncutResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
   const RemeshRun& run, const KnownOfMoves& known, std::vector<PlacedConstraint>& placed,
   std::vector<std::string>& notices)
 {
@@ -251,7 +251,7 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
   std::shared_ptr<QuadsBefore> before = findIn<QuadsBefore>(known.store, key);
   if (!before)
   {
-    SymmetricResult without = runWithoutMoves(input, options, run);
+    UncutResult without = runWithoutMoves(input, options, run);
     if (!without.remeshed.status.ok())
     {
       return without;

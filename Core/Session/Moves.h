@@ -3,20 +3,28 @@
 /// Moves of irregular vertices that are drawn: they need the quads without them, in which the vertices are found.
 #pragma once
 
+#include "Pieces/RemeshInPieces.h"
 #include "Pipeline/ResultStore.h"
 #include "Prepare/InputPlaces.h"
 #include "Requests/DrawnConstraints.h"
 #include "Symmetry/Symmetry.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace quadrille
 {
 
-/// remesh() or remeshSymmetric().
-using RemeshRun = std::function<SymmetricResult(SurfaceInput, const RemeshOptions&)>;
+/// Of a surface in one piece.
+struct UncutResult : SymmetricResult
+{
+  std::optional<MadeThinning> thinning; ///< where the surface was thinned out
+};
+
+/// remesh(), remeshSymmetric() or remeshThinned().
+using RemeshRun = std::function<UncutResult(SurfaceInput, const RemeshOptions&)>;
 
 bool asksForMoves(const std::vector<PlacedConstraint>& placed);
 
@@ -34,7 +42,7 @@ struct KnownOfMoves
 /// last one first.
 /// placed: of its moves the path becomes the vertex's old place and its new one, the place of the surface nearest to
 /// what was drawn, and they get the vertex's valence; or whyNot. notices: what the user should know.
-SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
+UncutResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
   const RemeshRun& run, const KnownOfMoves& known, std::vector<PlacedConstraint>& placed,
   std::vector<std::string>& notices);
 

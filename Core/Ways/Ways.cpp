@@ -176,24 +176,25 @@ RemeshOptions optionsOf(const QuadProblem& problem, bool leavesOutFailed, bool h
   return options;
 }
 
-void take(PiecesResult result, QuadsMade& made)
-{
-  made.remeshed = std::move(result.remeshed);
-  made.thinning = std::move(static_cast<MadeThinning&>(result));
-}
-
-/// Of all of the surface, or the part of a symmetry.
-SymmetricResult remeshUnthinned(
-  SurfaceInput input, const RemeshOptions& options, const QuadProblem& problem)
+/// Of all of the surface, its triangles thinned out, or the part of a symmetry.
+UncutResult remeshUncut(
+  SurfaceInput input, const RemeshOptions& options, const QuadProblem& problem, bool isThinned)
 {
   if (problem.symmetry)
   {
-    return remeshSymmetric(std::move(input), options, *problem.symmetry, problem.store);
+    return { remeshSymmetric(std::move(input), options, *problem.symmetry, problem.store), {} };
   }
-  SymmetricResult plain;
-  plain.remeshed = problem.store != nullptr ? remesh(std::move(input), options, *problem.store)
-                                            : remesh(std::move(input), options);
-  return plain;
+  UncutResult made;
+  if (isThinned)
+  {
+    PiecesResult thinned = remeshThinned(std::move(input), options);
+    made.remeshed = std::move(thinned.remeshed);
+    made.thinning = std::move(static_cast<MadeThinning&>(thinned));
+    return made;
+  }
+  made.remeshed = problem.store != nullptr ? remesh(std::move(input), options, *problem.store)
+                                           : remesh(std::move(input), options);
+  return made;
 }
 
 /// With a symmetry, or a map that starts from another one, quads depend on more than input and options.
@@ -229,27 +230,25 @@ QuadsMade remesh(const QuadProblem& problem)
   if (const std::unique_ptr<TriangleSource> triangles = trianglesToCut(problem))
   {
     made.way = Way::Pieces;
-    take(remeshInPieces(*triangles, optionsOf(problem, false, false)), made);
+    PiecesResult result = remeshInPieces(*triangles, optionsOf(problem, false, false));
+    made.remeshed = std::move(result.remeshed);
+    made.thinning = std::move(static_cast<MadeThinning&>(result));
     return made;
   }
   SurfaceInput input = problem.surface.whole();
   const bool hasMoves = problem.placed != nullptr && asksForMoves(*problem.placed);
   const RemeshOptions options = optionsOf(problem, !problem.symmetry, hasMoves);
   made.whyNotThinned = whyNotThinned(problem, input, hasMoves);
-  if (made.whyNotThinned.empty())
-  {
-    made.way = Way::Thinned;
-    take(remeshThinned(std::move(input), options), made);
-    return made;
-  }
-  made.way = problem.symmetry ? Way::Symmetric : Way::Whole;
-  const auto run = [&problem](SurfaceInput surface, const RemeshOptions& how)
-  { return remeshUnthinned(std::move(surface), how, problem); };
+  const bool isThinned = made.whyNotThinned.empty();
+  made.way = isThinned ? Way::Thinned : problem.symmetry ? Way::Symmetric : Way::Whole;
+  const auto run = [&problem, isThinned](SurfaceInput surface, const RemeshOptions& how)
+  { return remeshUncut(std::move(surface), how, problem, isThinned); };
   const bool hasDrawn = problem.placed != nullptr && !problem.placed->empty();
-  SymmetricResult result = hasDrawn
+  UncutResult result = hasDrawn
     ? remeshWithDrawn(input, options, run, knownOfMoves(problem), *problem.placed, made.warnings)
     : run(std::move(input), options);
   made.remeshed = std::move(result.remeshed);
+  made.thinning = std::move(result.thinning);
   if (problem.symmetry)
   {
     made.symmetry = std::move(static_cast<MadeSymmetry&>(result));

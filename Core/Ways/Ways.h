@@ -74,8 +74,7 @@ struct QuadProblem
   Thinning thinning = Thinning::Automatic;
   ResultStore* store = nullptr; ///< of earlier runs; null: none
   /// What was drawn, as it lies on the surface when GivenSurface::whole has been called. Moves of irregular vertices
-  /// among it are made, and what has no quads is left out, see remeshWithDrawn; not where the surface is thinned out.
-  /// Null: nothing.
+  /// among it are made, and what has no quads is left out, see remeshWithDrawn. Null: nothing.
   std::vector<PlacedConstraint>* placed = nullptr;
   /// What finds places on the surface, to be asked where something was drawn; empty: it is made.
   std::function<const InputPlaces*()> places;

@@ -37,7 +37,7 @@ MAY_INCLUDE = {
     "Symmetry": ["Pipeline"],  # ways that make several runs, or one of another surface
     "Assembly": ["Pipeline"],
     "Pieces": ["Pipeline"],
-    "Session": ["Symmetry"],
+    "Session": ["Symmetry", "Pieces"],
     "Ways": ["Pieces", "Session"],  # which of them a run takes
     "Api": ["Ways"],  # the library for C++ programs
     "Repair": ["Prepare"],  # with CGAL, and nothing of Core needs it: it can be left out

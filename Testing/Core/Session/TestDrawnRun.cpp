@@ -69,7 +69,7 @@ public:
     return [this](SurfaceInput input, const RemeshOptions&)
     {
       ++count;
-      SymmetricResult made;
+      UncutResult made;
       if (fails_(input))
       {
         made.remeshed.status = { StatusCode::Infeasible, "there is no map" };
@@ -88,8 +88,7 @@ TEST(DrawnRun, WhatIsMetIsRunOnce)
   Drawn drawn;
   Runs runs([](const SurfaceInput&) { return false; });
   std::vector<std::string> notices;
-  const SymmetricResult made =
-    remeshWithDrawn(drawn.input, {}, runs.run(), {}, drawn.placed, notices);
+  const UncutResult made = remeshWithDrawn(drawn.input, {}, runs.run(), {}, drawn.placed, notices);
   EXPECT_TRUE(made.remeshed.status.ok());
   EXPECT_EQ(runs.count, 1);
   EXPECT_TRUE(notices.empty());
@@ -103,8 +102,7 @@ TEST(DrawnRun, TheLaterOneOfTwoThatFailTogetherGoes)
   Runs runs([](const SurfaceInput& input)
     { return !input.drawn.features.empty() && input.drawn.valences.size() == 2; });
   std::vector<std::string> notices;
-  const SymmetricResult made =
-    remeshWithDrawn(drawn.input, {}, runs.run(), {}, drawn.placed, notices);
+  const UncutResult made = remeshWithDrawn(drawn.input, {}, runs.run(), {}, drawn.placed, notices);
   EXPECT_TRUE(made.remeshed.status.ok());
   // Two of the valences are one request, which goes with the second of them.
   EXPECT_EQ(drawn.placed[3].whyNot,
@@ -153,8 +151,7 @@ TEST(DrawnRun, WhereTheSurfaceItselfFailsNothingGoes)
   Drawn drawn;
   Runs runs([](const SurfaceInput&) { return true; });
   std::vector<std::string> notices;
-  const SymmetricResult made =
-    remeshWithDrawn(drawn.input, {}, runs.run(), {}, drawn.placed, notices);
+  const UncutResult made = remeshWithDrawn(drawn.input, {}, runs.run(), {}, drawn.placed, notices);
   EXPECT_EQ(made.remeshed.status.message, "there is no map");
   EXPECT_EQ(runs.count, 2);
   EXPECT_TRUE(notices.empty());
@@ -167,14 +164,14 @@ TEST(DrawnRun, AStopEndsAll)
   int count = 0;
   const RemeshRun run = [&](SurfaceInput input, const RemeshOptions&)
   {
-    SymmetricResult made;
+    UncutResult made;
     made.remeshed.status = { ++count == 4 ? StatusCode::Cancelled : StatusCode::Infeasible, "" };
     made.remeshed.status =
       input.drawn.empty() && input.curves.empty() ? Status{} : made.remeshed.status;
     return made;
   };
   std::vector<std::string> notices;
-  const SymmetricResult made = remeshWithDrawn(drawn.input, {}, run, {}, drawn.placed, notices);
+  const UncutResult made = remeshWithDrawn(drawn.input, {}, run, {}, drawn.placed, notices);
   EXPECT_EQ(made.remeshed.status.code, StatusCode::Cancelled);
   EXPECT_EQ(count, 4);
 }

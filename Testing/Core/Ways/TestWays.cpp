@@ -128,6 +128,36 @@ TEST(Ways, SoIsOneOfOtherPolygons)
   expectWay(squaresOf(fineTorus()), Way::Thinned, problemOf(none));
 }
 
+/// On thinned triangles, too, what cannot be met together with what comes before it is left out: where the valence at
+/// the corner has no map.
+TEST(Ways, WhatHasNoQuadsOnThinnedTrianglesIsLeftOut)
+{
+  constexpr int side = 720;
+  constexpr double length = side;
+  SurfaceInput surface = toInput(gridPlane(side, side));
+  surface.drawn.valences = { { { 0.8 * length, 0.8 * length, 0 }, 5 },
+    { { 0.999 * length, 0.999 * length, 0 }, 8 }, { { 0.2 * length, 0.2 * length, 0 }, 3 } };
+  std::vector<PlacedConstraint> placed(surface.drawn.valences.size());
+  for (std::size_t i = 0; i < placed.size(); ++i)
+  {
+    placed[i].kind = ConstraintKind::Valence;
+    placed[i].source = static_cast<std::int64_t>(i);
+    placed[i].path = { surface.drawn.valences[i].place };
+    placed[i].valence = surface.drawn.valences[i].valence;
+  }
+  SurfaceInput none;
+  QuadProblem problem = problemOf(none, 40);
+  problem.placed = &placed;
+  const QuadsMade made = expectWay(surface, Way::Thinned, problem);
+  EXPECT_TRUE(made.thinning);
+  EXPECT_EQ(placed[0].whyNot, "");
+  EXPECT_EQ(placed[1].whyNot.find("it cannot be met together with valence 0: "), 0U)
+    << placed[1].whyNot;
+  EXPECT_EQ(placed[2].whyNot, "");
+  ASSERT_EQ(made.warnings.size(), 1U);
+  EXPECT_EQ(made.warnings[0], "valence 1 is left out: " + placed[1].whyNot);
+}
+
 /// The reasons that keep a surface whole, each with its words.
 TEST(Ways, WhatNeedsTheWholeSurface)
 {
