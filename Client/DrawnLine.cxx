@@ -44,6 +44,14 @@ double distanceToSegment(const Place& place, const Place& begin, const Place& en
     { begin[0] + share * along[0], begin[1] + share * along[1], begin[2] + share * along[2] });
 }
 
+/// 0 of none.
+double medianOf(std::vector<double> numbers)
+{
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return numbers.empty() ? 0 : *middle;
+}
+
 } // namespace
 
 double lengthOf(const std::vector<Pixel>& path)
@@ -108,24 +116,38 @@ bool isClosedPath(const std::vector<Pixel>& path, double near)
     distance(path.front(), path.back()) < std::max(near, lengthOf(path) / share);
 }
 
-std::size_t placesOnOneSheet(const std::vector<Place>& places, double far)
+std::vector<Place> longestOnOneSheet(
+  const std::vector<std::optional<Place>>& places, double far, std::size_t mostUnseen)
 {
+  std::vector<std::size_t> seen;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    if (places[i])
+    {
+      seen.push_back(i);
+    }
+  }
   std::vector<double> steps;
-  for (std::size_t i = 1; i < places.size(); ++i)
+  for (std::size_t i = 1; i < seen.size(); ++i)
   {
-    steps.push_back(distance(places[i - 1], places[i]));
+    steps.push_back(distance(*places[seen[i - 1]], *places[seen[i]]));
   }
-  if (steps.empty())
+  const double longestStep = std::max(far, kOutlineStep * medianOf(steps));
+  std::vector<Place> longest;
+  std::vector<Place> row;
+  for (std::size_t i = 0; i < seen.size(); ++i)
   {
-    return places.size();
+    if (i > 0 && (steps[i - 1] > longestStep || seen[i] - seen[i - 1] > mostUnseen + 1))
+    {
+      row.clear();
+    }
+    row.push_back(*places[seen[i]]);
+    if (row.size() > longest.size())
+    {
+      longest = row;
+    }
   }
-  std::vector<double> sorted = steps;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double longest = std::max(far, kOutlineStep * *middle);
-  const auto first =
-    std::find_if(steps.begin(), steps.end(), [longest](double step) { return step > longest; });
-  return static_cast<std::size_t>(first - steps.begin()) + 1;
+  return longest;
 }
 
 std::vector<std::size_t> keptPlaces(const std::vector<Place>& places, double tolerance)

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace quadrille
@@ -28,10 +29,12 @@ std::vector<Pixel> smoothPath(const std::vector<Pixel>& path, std::size_t reach,
 /// length.
 bool isClosedPath(const std::vector<Pixel>& path, double near);
 
-/// How many places from the first one on are on one sheet of the surface. Pixels a step apart see places about as far
-/// apart as others do; beyond `far`, and beyond six times the median step, the mouse has passed an outline and sees
-/// something behind.
-std::size_t placesOnOneSheet(const std::vector<Place>& places, double far);
+/// Of the places that pixels side by side see, none where they see no surface, the longest row on one sheet; of several
+/// the first. Pixels a step apart see places about as far apart as others do; beyond `far`, and beyond six times the
+/// median step, the mouse has passed an outline and sees another sheet. So it has where more than mostUnseen side by
+/// side see none; a ray can slip through between two cells.
+std::vector<Place> longestOnOneSheet(
+  const std::vector<std::optional<Place>>& places, double far, std::size_t mostUnseen);
 
 /// The ids of those places that keep the polyline through them within the tolerance of all [Douglas and Peucker 1973];
 /// the first and the last are among them.

@@ -17,31 +17,87 @@ constexpr int kMessageTime = 30000; // milliseconds
 constexpr int kMargin = 8;          // pixels
 constexpr const char* kName = "QuadrilleWord";
 
+QString inOneLine(const QString& first, const QString& second)
+{
+  return first.isEmpty() || second.isEmpty() ? first + second : first + ' ' + second;
+}
+
+class Words : public QLabel
+{
+public:
+  explicit Words(QWidget* parent) : QLabel(parent)
+  {
+    this->setObjectName(kName);
+    this->setWordWrap(true);
+    this->setContentsMargins(kMargin, 0, 0, 0);
+    this->setSizePolicy(
+      QSizePolicy::Expanding, QSizePolicy::Ignored); // the bar stays as high as its buttons
+    this->Timer.setSingleShot(true);
+    this->Timer.setInterval(kMessageTime);
+    QObject::connect(&this->Timer, &QTimer::timeout, this, [this] { this->say({}); });
+  }
+
+  const QString& said() const { return this->Said; }
+
+  void say(const QString& text)
+  {
+    this->Said = text;
+    this->Timer.start();
+    this->refresh();
+  }
+
+  void sayProgress(const QString& text)
+  {
+    this->Progress = text;
+    this->refresh();
+  }
+
+private:
+  void refresh()
+  {
+    const QString text = inOneLine(this->Progress, this->Said);
+    this->setText(text);
+    this->setToolTip(text);
+  }
+
+  QString Progress, Said;
+  QTimer Timer;
+};
+
+Words* words()
+{
+  QWidget* window = pqCoreUtilities::mainWidget();
+  return window ? static_cast<Words*>(window->findChild<QLabel*>(kName)) : nullptr;
+}
+
 } // namespace
 
 void addRoomForWords(QToolBar* bar)
 {
-  auto* label = new QLabel(bar);
-  label->setObjectName(kName);
-  label->setWordWrap(true);
-  label->setContentsMargins(kMargin, 0, 0, 0);
-  label->setSizePolicy(
-    QSizePolicy::Expanding, QSizePolicy::Ignored); // the bar stays as high as its buttons
-  bar->addWidget(label);
-  auto* timer = new QTimer(label);
-  timer->setSingleShot(true);
-  timer->setInterval(kMessageTime);
-  QObject::connect(timer, &QTimer::timeout, label, &QLabel::clear);
+  bar->addWidget(new Words(bar));
 }
 
 void say(const QString& text)
 {
-  QWidget* window = pqCoreUtilities::mainWidget();
-  if (auto* label = window ? window->findChild<QLabel*>(kName) : nullptr)
+  if (Words* label = words())
   {
-    label->setText(text);
-    label->setToolTip(text);
-    label->findChild<QTimer*>()->start();
+    label->say(text);
+  }
+}
+
+void sayOutcome(const QString& text)
+{
+  if (Words* label = words())
+  {
+    label->say(inOneLine(text, label->said()));
+  }
+}
+
+void sayProgress(const QString& text)
+{
+  if (Words* label = words())
+  {
+    label->sayProgress(text);
   }
 }
 

@@ -13,7 +13,11 @@ namespace quadrille
 /// Makes room for them behind what the tool bar has.
 void addRoomForWords(QToolBar* bar);
 
-/// Shows a word for half a minute.
+/// Shows a word for half a minute, on what was just done.
 void say(const QString& text);
+/// The same on what was done earlier: in front of what was said since.
+void sayOutcome(const QString& text);
+/// How far a run is, in front of all words; empty: it is over.
+void sayProgress(const QString& text);
 
 } // namespace quadrille

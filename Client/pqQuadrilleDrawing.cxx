@@ -34,6 +34,7 @@ using quadrille::NewConstraint;
 using quadrille::Pixel;
 using quadrille::Place;
 using quadrille::say;
+using quadrille::sayOutcome;
 using Tool = pqQuadrilleDrawing::Tool;
 
 constexpr double kSampleStep = 5;       // pixels between places that are looked for
@@ -43,10 +44,10 @@ constexpr double kClick = 6;            // pixels; what is shorter is a click
 constexpr double kNearEnd = 10;         // pixels between the ends of a line that closes
 constexpr double kLineTolerance = 0.03; // edge lengths that the line may lose by having few points
 constexpr double kFarStep = 2;          // edge lengths between places side by side
-constexpr std::size_t kMostUnseen =
-  2;                              // samples side by side without a place, with which a line goes on
-constexpr double kBallReach = 14; // pixels from the centre of a ball
-constexpr double kSameBall = 0.5; // edge lengths
+constexpr std::size_t kMostUnseen = 2;  // samples side by side with which a line goes on
+constexpr std::size_t kLeastPlaces = 3; // of a line
+constexpr double kBallReach = 14;       // pixels from the centre of a ball
+constexpr double kSameBall = 0.5;       // edge lengths
 constexpr int kBallsOutput = 4;
 constexpr int kConstraintsOutput = 5;
 constexpr float kBeforeAllOthers = 10; // priority of observers
@@ -445,46 +446,37 @@ void pqQuadrilleDrawing::finish()
 }
 
 //-----------------------------------------------------------------------------
-std::optional<std::vector<Place>> pqQuadrilleDrawing::drawnLine(
+std::optional<pqQuadrilleDrawing::Line> pqQuadrilleDrawing::drawnLine(
   vtkSMSourceProxy* filter, bool isClosed)
 {
   const double length = quadrille::lengthOf(this->Path);
   const double step = std::max(kSampleStep * this->pixelRatio(), length / kMostSamples);
   const std::vector<Pixel> pixels =
     quadrille::smoothPath(quadrille::evenPath(this->Path, step), kSmoothReach, isClosed);
-  std::vector<Place> places;
-  std::size_t unseen = 0; // side by side; a ray can slip through between two cells
-  for (const std::optional<Place>& place :
-    quadrille::placesUnder(this->viewProxy(), pixels, this->Surface))
-  {
-    unseen = place ? 0 : unseen + 1;
-    if (unseen > kMostUnseen)
-    {
-      break;
-    }
-    if (place)
-    {
-      places.push_back(*place);
-    }
-  }
   const double edge = quadrille::edgeLength(filter).value_or(0);
-  places.resize(quadrille::placesOnOneSheet(places, kFarStep * edge));
+  const std::vector<Place> places = quadrille::longestOnOneSheet(
+    quadrille::placesUnder(this->viewProxy(), pixels, this->Surface), kFarStep * edge, kMostUnseen);
   const bool isWhole = places.size() + kMostUnseen >= pixels.size();
-  if (places.size() < 3 || (isClosed && !isWhole))
+  if (isClosed && !isWhole)
   {
-    say(isClosed
-        ? "The loop leaves the part of the surface that is seen: draw it where all of it is seen."
-        : "This line is too short, or leaves the surface at once: drag along the surface.");
+    say("The loop leaves the part of the surface that is seen: draw it where all of it is seen.");
     return std::nullopt;
+  }
+  if (places.size() < kLeastPlaces)
+  {
+    say("Nothing was drawn: no part of this line is long enough on one side of the surface. Zoom "
+        "in or turn the view, and drag along the surface.");
+    return std::nullopt;
+  }
+  Line line;
+  for (const std::size_t id : quadrille::keptPlaces(places, kLineTolerance * edge))
+  {
+    line.places.push_back(places[id]);
   }
   if (!isWhole)
   {
-    say("The line ends where the surface ends to be seen.");
-  }
-  std::vector<Place> line;
-  for (const std::size_t id : quadrille::keptPlaces(places, kLineTolerance * edge))
-  {
-    line.push_back(places[id]);
+    line.remark = "Only its longest part is drawn, as the mouse passed an outline: turn the view "
+                  "to draw the rest.";
   }
   return line;
 }
@@ -502,13 +494,13 @@ void pqQuadrilleDrawing::finishLine(vtkSMSourceProxy* filter)
     say("That was a click: press, drag along the surface, and release.");
     return;
   }
-  const std::optional<std::vector<Place>> line = this->drawnLine(filter, false);
+  const std::optional<Line> line = this->drawnLine(filter, false);
   if (!line)
   {
     return;
   }
   const char* source = this->Current == Tool::Feature ? "QuadFeatureCurve" : "QuadStroke";
-  this->perform(filter, { source, { { "Points", coordinatesOf(*line) } } });
+  this->perform(filter, { source, { { "Points", coordinatesOf(line->places) } } }, line->remark);
 }
 
 //-----------------------------------------------------------------------------
@@ -542,10 +534,10 @@ void pqQuadrilleDrawing::finishLoop(vtkSMSourceProxy* filter)
   }
   if (quadrille::isClosedPath(this->Path, kNearEnd * this->pixelRatio()))
   {
-    const std::optional<std::vector<Place>> line = this->drawnLine(filter, true);
+    const std::optional<Line> line = this->drawnLine(filter, true);
     if (line)
     {
-      this->perform(filter, { "QuadLoop", { { "Points", coordinatesOf(*line) } } });
+      this->perform(filter, { "QuadLoop", { { "Points", coordinatesOf(line->places) } } });
     }
     return;
   }
@@ -755,12 +747,12 @@ void pqQuadrilleDrawing::finishConnection(vtkSMSourceProxy* filter)
     // A drag says which way round.
     const std::optional<Place> end = this->ballAt(filter, this->Path.back(),
       "The drag does not end on a ball: drag from one ball to another one.");
-    const std::optional<std::vector<Place>> drawn = this->drawnLine(filter, false);
-    if (!end || !drawn)
+    const std::optional<Line> drawn = end ? this->drawnLine(filter, false) : std::nullopt;
+    if (!drawn)
     {
       return;
     }
-    line = *drawn;
+    line = drawn->places;
     line.front() = *ball;
     line.back() = *end;
   }
@@ -850,7 +842,8 @@ void pqQuadrilleDrawing::finishSize(vtkSMSourceProxy* filter)
 }
 
 //-----------------------------------------------------------------------------
-void pqQuadrilleDrawing::perform(vtkSMSourceProxy* filter, const NewConstraint& constraint)
+void pqQuadrilleDrawing::perform(
+  vtkSMSourceProxy* filter, const NewConstraint& constraint, const QString& remark)
 {
   BEGIN_UNDO_SET(kindOf(constraint.source).name);
   const bool isMade = quadrille::addConstraint(filter, constraint) != nullptr;
@@ -867,7 +860,7 @@ void pqQuadrilleDrawing::perform(vtkSMSourceProxy* filter, const NewConstraint& 
           .arg(constraint.source.c_str()));
     return;
   }
-  this->execute(filter, constraint.source);
+  this->execute(filter, constraint.source, remark);
 }
 
 //-----------------------------------------------------------------------------
@@ -884,45 +877,41 @@ void pqQuadrilleDrawing::showQuads(vtkSMSourceProxy* filter)
 }
 
 //-----------------------------------------------------------------------------
-void pqQuadrilleDrawing::execute(vtkSMSourceProxy* filter, const std::string& source)
+void pqQuadrilleDrawing::execute(
+  vtkSMSourceProxy* filter, const std::string& source, const QString& remark)
 {
   const vtkWeakPointer<vtkSMSourceProxy> executed = filter;
   pqQuadrilleRun::instance()->start(filter,
-    [this, executed, source](pqQuadrilleRun::End how)
+    [this, executed, source, remark](pqQuadrilleRun::End how)
     {
       if (how == pqQuadrilleRun::End::Stopped)
       {
         pqApplicationCore::instance()->getUndoStack()->undo();
-        say(QString("%1: stopped, and taken back.").arg(kindOf(source).name));
+        sayOutcome(QString("%1: stopped, and taken back.").arg(kindOf(source).name));
       }
       else if (how == pqQuadrilleRun::End::Shown && executed)
       {
-        this->tellOutcome(executed, source);
+        this->tellOutcome(executed, source, remark);
       }
     });
 }
 
 //-----------------------------------------------------------------------------
-void pqQuadrilleDrawing::tellOutcome(vtkSMSourceProxy* filter, const std::string& source)
+void pqQuadrilleDrawing::tellOutcome(
+  vtkSMSourceProxy* filter, const std::string& source, const QString& remark)
 {
   const KindName& kind = kindOf(source);
   const std::optional<quadrille::ConstraintWord> word = quadrille::wordOnLast(filter, kind.row);
-  if (!word)
+  QString outcome = "no quads were made; Output Messages says why";
+  if (word)
   {
-    say(QString("%1: no quads were made; Output Messages says why. Ctrl+Z takes it back.")
-          .arg(kind.name));
+    const QString reason = word->reason.empty()
+      ? QString()
+      : QString(word->isMet ? ", but " : ", ") + word->reason.c_str();
+    outcome = (word->isMet ? "met" : "not met") + reason;
   }
-  else if (word->isMet)
-  {
-    const QString more =
-      word->reason.empty() ? QString() : QString(", but %1").arg(word->reason.c_str());
-    say(QString("%1: met%2. Ctrl+Z takes it back.").arg(kind.name, more));
-  }
-  else
-  {
-    say(QString("%1: not met%2. Ctrl+Z takes it back.")
-          .arg(kind.name, word->reason.empty() ? "" : QString(", %1").arg(word->reason.c_str())));
-  }
+  sayOutcome(QString("%1: %2. %3Ctrl+Z takes it back.")
+               .arg(kind.name, outcome, remark.isEmpty() ? remark : remark + ' '));
 }
 
 //-----------------------------------------------------------------------------
@@ -988,11 +977,11 @@ void pqQuadrilleDrawing::remove(vtkSMSourceProxy* filter, vtkSMSourceProxy* cons
       if (how == pqQuadrilleRun::End::Stopped)
       {
         pqApplicationCore::instance()->getUndoStack()->undo();
-        say(QString("%1: stopped, and brought back.").arg(name));
+        sayOutcome(QString("%1: stopped, and brought back.").arg(name));
       }
       else if (how == pqQuadrilleRun::End::Shown)
       {
-        say(QString("%1 was taken away. Ctrl+Z brings it back.").arg(name));
+        sayOutcome(QString("%1 was taken away. Ctrl+Z brings it back.").arg(name));
       }
     });
 }

@@ -92,8 +92,13 @@ private:
   void stopDrawing();
   /// What a drag has drawn becomes a constraint, once the events of the mouse are over.
   void finish();
+  struct Line
+  {
+    std::vector<quadrille::Place> places;
+    QString remark; ///< on what is left of what was drawn; empty: all of it
+  };
   /// A line along what was drawn; none, with a word to the user, where it cannot be had.
-  std::optional<std::vector<quadrille::Place>> drawnLine(vtkSMSourceProxy* filter, bool isClosed);
+  std::optional<Line> drawnLine(vtkSMSourceProxy* filter, bool isClosed);
   void finishLine(vtkSMSourceProxy* filter);
   /// The feature curve at a click is none any more.
   void finishClear(vtkSMSourceProxy* filter);
@@ -116,13 +121,15 @@ private:
   /// Balls can be pressed where they are seen.
   void showBalls();
 
-  void perform(vtkSMSourceProxy* filter, const quadrille::NewConstraint& constraint);
+  /// remark: told with the outcome.
+  void perform(vtkSMSourceProxy* filter, const quadrille::NewConstraint& constraint,
+    const QString& remark = {});
   void remove(vtkSMSourceProxy* filter, vtkSMSourceProxy* constraint);
   void applyValence();
   void showQuads(vtkSMSourceProxy* filter);
   /// Makes the quads anew and says what became of the constraint of this source.
-  void execute(vtkSMSourceProxy* filter, const std::string& source);
-  void tellOutcome(vtkSMSourceProxy* filter, const std::string& source);
+  void execute(vtkSMSourceProxy* filter, const std::string& source, const QString& remark = {});
+  void tellOutcome(vtkSMSourceProxy* filter, const std::string& source, const QString& remark);
 
   quadrille::Pixel mouse() const;
   double pixelRatio() const;

@@ -156,6 +156,10 @@ void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
   {
     this->show(); // it waits for the run
   }
+  if (this->IsTold)
+  {
+    quadrille::say({}); // of what was done before
+  }
   this->Filter = filter;
   this->Waiting.push_back(std::move(then));
   prepare(filter);
@@ -190,8 +194,8 @@ void pqQuadrilleRun::look()
   }
   else if (this->IsTold)
   {
-    quadrille::say(QString("Making quads: %1 %. Escape stops it.")
-                     .arg(ask(this->Filter, "GetUnderwayProgress")));
+    quadrille::sayProgress(QString("Making quads: %1 %. Escape stops it.")
+                             .arg(ask(this->Filter, "GetUnderwayProgress")));
   }
 }
 
@@ -277,10 +281,7 @@ void pqQuadrilleRun::end(End how)
   this->releaseSaving();
   qApp->removeEventFilter(this);
   this->Filter = nullptr;
-  if (this->IsTold)
-  {
-    quadrille::say({}); // the progress; what follows may tell the outcome
-  }
+  quadrille::sayProgress({});
   for (const Then& then : std::exchange(this->Waiting, {}))
   {
     then(how);

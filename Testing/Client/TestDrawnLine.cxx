@@ -89,16 +89,43 @@ TEST(DrawnLine, ACircleClosesAndThreeQuartersOfItDoNot)
   EXPECT_FALSE(isClosedPath({ { 0, 0 }, { 100, 0 } }, 10));
 }
 
-TEST(DrawnLine, ALineEndsWhereTheEyeSeesAnotherSheet)
+TEST(DrawnLine, TheLongestRowOnOneSheetIsTaken)
 {
-  std::vector<Place> places;
+  // Three places in front, five behind, two in front again.
+  std::vector<std::optional<Place>> places;
   for (int i = 0; i < 10; ++i)
   {
-    places.push_back({ 0.1 * i, 0, i < 6 ? 0.0 : 5.0 });
+    places.push_back(Place{ 0.1 * i, 0, i >= 3 && i < 8 ? -5.0 : 0.0 });
   }
-  EXPECT_EQ(placesOnOneSheet(places, 0.5), 6u);
-  EXPECT_EQ(placesOnOneSheet(places, 6), 10u);
-  EXPECT_EQ(placesOnOneSheet({ places.front() }, 0.5), 1u);
+  const auto seen = [&places](std::size_t begin, std::size_t end)
+  {
+    std::vector<Place> row;
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      row.push_back(*places[i]);
+    }
+    return row;
+  };
+  EXPECT_EQ(longestOnOneSheet(places, 0.5, 2), seen(3, 8));
+  EXPECT_EQ(longestOnOneSheet(places, 6, 2), seen(0, 10));
+  EXPECT_EQ(longestOnOneSheet({ places.front() }, 0.5, 2), seen(0, 1));
+  EXPECT_TRUE(longestOnOneSheet({ std::nullopt, std::nullopt }, 0.5, 2).empty());
+  EXPECT_TRUE(longestOnOneSheet({}, 0.5, 2).empty());
+}
+
+TEST(DrawnLine, ARowGoesOnBesideARayThatSlippedThrough)
+{
+  std::vector<std::optional<Place>> places;
+  for (int i = 0; i < 12; ++i)
+  {
+    places.push_back(Place{ 0.1 * i, 0, 0 });
+  }
+  places[4] = places[5] = std::nullopt;
+  EXPECT_EQ(longestOnOneSheet(places, 0.5, 2).size(), 10u);
+  places[6] = std::nullopt;
+  const std::vector<Place> after = longestOnOneSheet(places, 0.5, 2);
+  ASSERT_EQ(after.size(), 5u); // of two rows, four and five long
+  EXPECT_EQ(after.front(), *places[7]);
 }
 
 TEST(DrawnLine, KeptPlacesAreWithinTheToleranceOfAll)

@@ -186,6 +186,14 @@ def random_path(seed, shortest, longest, bend, near):
     return None
 
 
+def outline_right_of(pixel):
+    """The last pixel to the right of one that sees the quads from which on the quads are still seen."""
+    x, y = pixel
+    while seen_at((x + 1, y)) is not None:
+        x += 1
+    return x, y
+
+
 def cut_closes(path):
     """Whether the plane through a drag and the eye cuts the quads there in a closed curve."""
     path = numpy.array(path)

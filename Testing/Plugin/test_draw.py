@@ -378,6 +378,39 @@ def check_undo(session, chance):
     return bad
 
 
+def length_of_words(session):
+    """Dark pixels behind the buttons and fields of the tool bar."""
+    session.ask("pass")
+    rows = session.rows()
+    left, y = max(x for x, _ in session.tools.values()) + 260, session.tools["Stroke"][1]
+    return sum(1 for v in range(y - 14, y + 15) for x in range(left, session.size[0] - 10)
+               if max(rows[v][3 * x:3 * x + 3]) < 100)
+
+
+def check_words(session, chance):
+    """A drag that leaves the surface at once while quads are made draws nothing, and what it says stays."""
+    session.ask("clear()")
+    session.look(270, 20)
+    session.take("Stroke")
+    pixels, _ = session.path(chance)
+    outline = session.value(f"outline_right_of({pixels[0]!r})")
+    words = []
+    for more in ([], [(outline[0] - 1, outline[1]), (outline[0] + 30, outline[1]), (outline[0] + 60, outline[1])]):
+        session.ask("clear()")
+        session.xdotool("mousemove", *session.screen(pixels[0]), "sleep", 0.1, "mousedown", 1,
+                        *[word for p in pixels[1:] for word in ("mousemove", *session.screen(p))], "mouseup", 1)
+        if more:
+            session.drag(more)
+        session.settle()
+        words.append((len(session.value("constraints()")), length_of_words(session)))
+    session.shot("draw-words")
+    session.xdotool("key", "Escape")
+    fine = [count for count, _ in words] == [1, 1] and words[1][1] > 1.2 * words[0][1] > 0
+    print(f"a line that cannot be drawn while quads are made: constraints and dark pixels of words {words}: "
+          f"{'fine' if fine else 'BAD'}", flush=True)
+    return not fine
+
+
 def saturation(session, name):
     """Of the most colourful pixel of a button, 0 to 255."""
     x, y = session.tools[name]
@@ -627,6 +660,7 @@ CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _
           "picks": lambda s, c, n: test_places.check_picks(s, c, 3 * n),
           "strokes": lambda s, c, n: test_places.check_strokes(s, c, 2 * n),
           "selection": lambda s, c, _: test_places.check_selection(s, c),
+          "words": lambda s, c, _: check_words(s, c),
           "number": lambda s, c, _: check_number(s), "stop": lambda s, c, _: check_stop(s, c),
           "save": lambda s, c, _: check_save(s, c), "delete": lambda s, c, _: check_delete(s, c),
           "close": lambda s, c, _: check_close(s)}
