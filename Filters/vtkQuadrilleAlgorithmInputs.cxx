@@ -71,7 +71,7 @@ void vtkQuadrilleAlgorithm::ReadInputs(Run& run, vtkInformationVector** inputs)
     {
       for (vtkDataObject* piece : node.pieces)
       {
-        quadrille::addStamps(piece, run.stamps);
+        quadrille::addStampsOfContents(piece, run.stamps);
       }
     }
     run.stamps.emplace_back(nullptr, run.trees.back().size());
@@ -151,6 +151,10 @@ void vtkQuadrilleAlgorithm::TakeStates(Run& run)
     work.stamps.emplace_back(nullptr, static_cast<vtkMTimeType>(work.block.ownTarget));
     for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
     {
+      if (this->GetPortRole(port) == PortRole::Shared)
+      {
+        continue; // among those of the run
+      }
       for (vtkDataObject* piece : run.pieces(work, port))
       {
         quadrille::addStamps(piece, work.stamps);

@@ -1019,6 +1019,42 @@ TEST(QuadRemesh, OtherQuadsOfTheSameMapLeaveTheMappedSurfaceAsItIs)
   EXPECT_GT(filter->GetMappedSurface()->GetFieldData()->GetArray("Charts")->GetTuple1(0), 0);
 }
 
+// A constraint that an undo has made anew is another object with the same contents.
+TEST(QuadRemesh, ConstraintsOfTheSameContentsAreTheSame)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
+  const auto valenceAt = [](double x, int valence)
+  {
+    const auto points = vtkSmartPointer<vtkPolyData>::New();
+    vtkNew<vtkPoints> places;
+    places->InsertNextPoint(x, 0, 0);
+    vtkNew<vtkIntArray> valences;
+    valences->SetName("TargetValence");
+    valences->InsertNextValue(valence);
+    points->SetPoints(places);
+    points->GetPointData()->AddArray(valences);
+    return points;
+  };
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  filter->SetInputData(input);
+  filter->SetTargetTypeToNumberOfQuads();
+  filter->SetNumberOfQuads(400);
+  const auto run = [&](double x, int valence)
+  {
+    filter->SetValencePointsData(valenceAt(x, valence));
+    filter->Update();
+    return std::string(filter->GetReusedStagesText());
+  };
+  EXPECT_NE(run(3, 3), "all");
+  const std::vector<double> first = coordinates(filter->GetOutput());
+  EXPECT_EQ(run(3, 3), "all");
+  EXPECT_NE(run(3, 5), "all");
+  EXPECT_NE(run(2.9, 5), "all");
+  EXPECT_EQ(run(3, 3), "all"); // of those before
+  EXPECT_EQ(coordinates(filter->GetOutput()), first);
+}
+
 TEST(QuadRemesh, NothingNewReturnsTheResultBefore)
 {
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
