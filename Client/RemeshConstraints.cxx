@@ -442,6 +442,20 @@ bool hasUnmetConstraints(vtkSMSourceProxy* filter)
   return met && met->GetComponentRange(0)[0] == 0;
 }
 
+int countUnmet(vtkSMSourceProxy* filter)
+{
+  int unmet = 0;
+  forEach<vtkTable>(fetched(filter, kConstraintTable),
+    [&unmet](vtkTable& table)
+    {
+      for (vtkIdType row = 0; row < table.GetNumberOfRows(); ++row)
+      {
+        unmet += table.GetValueByName(row, "Met").ToInt() == 0 ? 1 : 0;
+      }
+    });
+  return unmet;
+}
+
 std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::string& kind)
 {
   std::optional<ConstraintWord> word;

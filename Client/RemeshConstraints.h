@@ -89,6 +89,8 @@ struct ConstraintWord
 
 /// Whether there is one that is not met.
 bool hasUnmetConstraints(vtkSMSourceProxy* filter);
+/// How many are not met, by the Constraint Table.
+int countUnmet(vtkSMSourceProxy* filter);
 
 /// The word on the last constraint of a kind (of the column Kind of the Constraint Table); none where it tells of none.
 std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::string& kind);

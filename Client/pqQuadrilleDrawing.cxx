@@ -881,8 +881,9 @@ void pqQuadrilleDrawing::execute(
   vtkSMSourceProxy* filter, const std::string& source, const QString& remark)
 {
   const vtkWeakPointer<vtkSMSourceProxy> executed = filter;
+  const int unmetBefore = quadrille::countUnmet(filter);
   pqQuadrilleRun::instance()->start(filter,
-    [this, executed, source, remark](pqQuadrilleRun::End how)
+    [this, executed, source, remark, unmetBefore](pqQuadrilleRun::End how)
     {
       if (how == pqQuadrilleRun::End::Stopped)
       {
@@ -891,14 +892,14 @@ void pqQuadrilleDrawing::execute(
       }
       else if (how == pqQuadrilleRun::End::Shown && executed)
       {
-        this->tellOutcome(executed, source, remark);
+        this->tellOutcome(executed, source, unmetBefore, remark);
       }
     });
 }
 
 //-----------------------------------------------------------------------------
 void pqQuadrilleDrawing::tellOutcome(
-  vtkSMSourceProxy* filter, const std::string& source, const QString& remark)
+  vtkSMSourceProxy* filter, const std::string& source, int unmetBefore, const QString& remark)
 {
   const KindName& kind = kindOf(source);
   const std::optional<quadrille::ConstraintWord> word = quadrille::wordOnLast(filter, kind.row);
@@ -910,8 +911,12 @@ void pqQuadrilleDrawing::tellOutcome(
       : QString(word->isMet ? ", but " : ", ") + word->reason.c_str();
     outcome = (word->isMet ? "met" : "not met") + reason;
   }
-  sayOutcome(QString("%1: %2. %3Ctrl+Z takes it back.")
-               .arg(kind.name, outcome, remark.isEmpty() ? remark : remark + ' '));
+  const int lost = quadrille::countUnmet(filter) - unmetBefore - (word && !word->isMet ? 1 : 0);
+  const QString others = lost <= 0 ? QString()
+    : lost == 1                    ? QString("Another constraint is not met any more (magenta). ")
+                : QString("%1 others are not met any more (magenta). ").arg(lost);
+  sayOutcome(QString("%1: %2. %3%4Ctrl+Z takes it back.")
+               .arg(kind.name, outcome, remark.isEmpty() ? remark : remark + ' ', others));
 }
 
 //-----------------------------------------------------------------------------

@@ -129,7 +129,9 @@ private:
   void showQuads(vtkSMSourceProxy* filter);
   /// Makes the quads anew and says what became of the constraint of this source.
   void execute(vtkSMSourceProxy* filter, const std::string& source, const QString& remark = {});
-  void tellOutcome(vtkSMSourceProxy* filter, const std::string& source, const QString& remark);
+  /// unmetBefore: how many constraints were not met in the quads from before.
+  void tellOutcome(
+    vtkSMSourceProxy* filter, const std::string& source, int unmetBefore, const QString& remark);
 
   quadrille::Pixel mouse() const;
   double pixelRatio() const;

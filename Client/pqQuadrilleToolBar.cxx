@@ -126,6 +126,10 @@ pqQuadrilleToolBar::pqQuadrilleToolBar(QWidget* parent)
   QObject::connect(
     this->Remove, &QAction::triggered, this->Drawing, &pqQuadrilleDrawing::removeLast);
   quadrille::addRoomForWords(this);
+  // What was said of what is undone now is not true any more.
+  pqUndoStack* undo = pqApplicationCore::instance()->getUndoStack();
+  QObject::connect(undo, &pqUndoStack::undone, this, [] { quadrille::say({}); });
+  QObject::connect(undo, &pqUndoStack::redone, this, [] { quadrille::say({}); });
   this->watchPipeline();
   this->refresh();
 }

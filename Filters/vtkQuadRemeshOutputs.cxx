@@ -97,9 +97,11 @@ std::string resultText(
     text << "No quads, as the method makes none: the mapped surface is the result.";
     return text.str();
   }
-  const bool isOfShape = asked.growsWithShape && result.targetQuads > *asked.quads;
-  text << result.quads.quads.size() << " quads (about " << result.targetQuads
-       << (isOfShape ? " for its shape), " : " asked for), ") << irregular << " irregular vertices";
+  const char* const who = !asked.growsWithShape ? "asked for"
+    : result.targetQuads > *asked.quads         ? "for its shape"
+                                                : "by default";
+  text << result.quads.quads.size() << " quads (about " << result.targetQuads << ' ' << who << "), "
+       << irregular << " irregular vertices";
   return text.str();
 }
 

@@ -582,6 +582,12 @@ TEST(QuadRemesh, TheShapeSaysHowManyWhereNobodyDoes)
   EXPECT_EQ(std::string(given->GetNoticesText()).find("as nobody"), std::string::npos);
   EXPECT_NE(
     std::string(given->GetVerdict()).find(" quads (about 7000 asked for), "), std::string::npos);
+  vtkNew<vtkQuadRemesh> thick;
+  thick->SetInputData(test::toPolyData(test::torus(60, 30)));
+  thick->Update();
+  EXPECT_NE(
+    std::string(thick->GetVerdict()).find(" quads (about 5000 by default), "), std::string::npos)
+    << thick->GetVerdict();
   ASSERT_EQ(given->GetOutput()->GetNumberOfPoints(), filter->GetOutput()->GetNumberOfPoints());
   for (vtkIdType i = 0; i < given->GetOutput()->GetNumberOfPoints(); ++i)
   {

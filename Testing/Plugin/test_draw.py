@@ -357,7 +357,7 @@ def check_camera(session, chance):
 
 
 def check_undo(session, chance):
-    """One undo takes one action back, with the quads of before; redo brings it again."""
+    """One undo takes one action back, with the quads of before and what was said of it; redo brings it again."""
     bad = 0
     for name in ("Stroke", "Valence"):
         session.ask("clear()")
@@ -366,14 +366,17 @@ def check_undo(session, chance):
         session.take(name)
         ACTIONS[name](session, chance)
         made, count = session.value("bytes_of(quads())"), len(session.value("constraints()"))
-        states = []
+        states, said = [], [length_of_words(session)]
         for key in ("ctrl+z", "ctrl+y"):
             session.xdotool("key", key)
             session.settle()
             states.append((session.value("bytes_of(quads())"), len(session.value("constraints()"))))
-        fine = count == 1 and made != before and states == [(before, 0), (made, 1)]
+            said.append(length_of_words(session))
+        fine = count == 1 and made != before and states == [(before, 0), (made, 1)] and \
+            said[0] > 0 and said[1:] == [0, 0]
         session.xdotool("key", "Escape")
-        print(f"undo and redo of {name}: {'fine' if fine else f'BAD: {count} constraints, {states}'}", flush=True)
+        bad_word = f"BAD: {count} constraints, {states}, {said}"
+        print(f"undo and redo of {name}: {'fine' if fine else bad_word}", flush=True)
         bad += not fine
     return bad
 
