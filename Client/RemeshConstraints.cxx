@@ -249,6 +249,19 @@ vtkSMSourceProxy* lastConstraint(vtkSMSourceProxy* filter)
   return last;
 }
 
+vtkSMSourceProxy* constraintMeant(vtkSMSourceProxy* filter, vtkSMSourceProxy* selected)
+{
+  const vtkSMPropertyHelper constraints(filter, "Constraints");
+  for (unsigned int i = 0; i < constraints.GetNumberOfElements(); ++i)
+  {
+    if (isConstraint(selected) && constraints.GetAsProxy(i) == selected)
+    {
+      return selected;
+    }
+  }
+  return lastConstraint(filter);
+}
+
 void removeConstraint(vtkSMSourceProxy* filter, vtkSMSourceProxy* constraint)
 {
   {

@@ -55,6 +55,10 @@ vtkSmartPointer<vtkSMQuadConstraintProxy> newMove(vtkSMSourceProxy* filter);
 /// The constraint of the filter that was made last, by these tools or otherwise; null where it has none.
 vtkSMSourceProxy* lastConstraint(vtkSMSourceProxy* filter);
 
+/// Which one of the filter a user who takes one away means: what is selected where it is one, else the last one; null
+/// where it has none.
+vtkSMSourceProxy* constraintMeant(vtkSMSourceProxy* filter, vtkSMSourceProxy* selected);
+
 /// Takes a constraint out of the filter and out of the pipeline.
 void removeConstraint(vtkSMSourceProxy* filter, vtkSMSourceProxy* constraint);
 

@@ -954,19 +954,20 @@ void pqQuadrilleDrawing::applyValence()
 }
 
 //-----------------------------------------------------------------------------
-void pqQuadrilleDrawing::removeLast()
+void pqQuadrilleDrawing::removeMeant()
 {
   pqPipelineSource* active = pqActiveObjects::instance().activeSource();
   auto* selected = vtkSMSourceProxy::SafeDownCast(active ? active->getProxy() : nullptr);
   vtkSMSourceProxy* filter = quadrille::remeshOf(selected, selected);
-  vtkSMSourceProxy* last = filter ? quadrille::lastConstraint(filter) : nullptr;
-  if (!last)
+  vtkSMSourceProxy* meant = filter ? quadrille::constraintMeant(filter, selected) : nullptr;
+  if (!meant)
   {
     say(filter ? "This Quad Remesh has no constraint that could be taken away."
-               : "Select the Quad Remesh in the pipeline whose last constraint is to go.");
+               : "Select in the pipeline the constraint that is to go, or its Quad Remesh for the "
+                 "last one.");
     return;
   }
-  this->remove(filter, last);
+  this->remove(filter, meant);
 }
 
 //-----------------------------------------------------------------------------

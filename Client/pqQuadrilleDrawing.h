@@ -65,8 +65,8 @@ public Q_SLOTS:
   void setValence(int valence);
   /// Of what is dragged next, see QuadSize.
   void setSizeFactor(double factor) { this->SizeFactor = factor; }
-  /// Takes away the constraint that was made last.
-  void removeLast();
+  /// Takes away the constraint that is selected in the pipeline, else the one that was made last.
+  void removeMeant();
 
 Q_SIGNALS:
   void toolChanged(pqQuadrilleDrawing::Tool tool);

@@ -122,9 +122,11 @@ pqQuadrilleToolBar::pqQuadrilleToolBar(QWidget* parent)
   this->addSeparator();
   this->addValence();
   this->addSize();
-  this->Remove = this->add("Remove", "Remove Last: takes away the constraint that was made last");
+  this->Remove = this->add("Remove",
+    "Remove: takes away the constraint that is selected in the pipeline, else the one that was "
+    "made last");
   QObject::connect(
-    this->Remove, &QAction::triggered, this->Drawing, &pqQuadrilleDrawing::removeLast);
+    this->Remove, &QAction::triggered, this->Drawing, &pqQuadrilleDrawing::removeMeant);
   quadrille::addRoomForWords(this);
   // What was said of what is undone now is not true any more.
   pqUndoStack* undo = pqApplicationCore::instance()->getUndoStack();

@@ -6,7 +6,7 @@
                    [--first N] [--surface FILE...] [--kinds KIND...]
 
 A session: a surface is opened, quads are made by the first button of the tool bar, and random tools draw at random
-visible places, with *Remove Last*, dragged points, sources of constraints made by keyboard, undo, redo and another
+visible places, with *Remove*, dragged points, sources of constraints made by keyboard, undo, redo and another
 *Number Of Quads* among them and an undo at last, all recorded. --kinds says what is done in place of random edits. Its
 trace, and the state saved at last as .pvsm and as .py, are run in pvpython, in pvbatch on two ranks, and in pvpython
 through a server. What has other bytes, or other constraints, is told with BAD. *Rank Independent* is *Always* by
@@ -40,12 +40,6 @@ SOURCES = {"Quad Stroke": 3, "Quad Valence": 1, "Quad Move": 2, "Quad Feature Cu
 
 class Session(test_draw.Session):
     """With what the panel and the stack of undos have."""
-
-    def find_tools(self):
-        super().find_tools()
-        rows = self.rows()
-        y = self.tools["Remesh"][1]
-        self.remove = max(x for x in range(count_actions.WIDTH // 2) if rows[y][3 * x:3 * x + 3] != rows[y][3:6]), y
 
     def steps(self):
         """How many can be undone and redone."""

@@ -60,6 +60,8 @@ class Session(test_places.Session):
                 start = None
         icons = [(a, b) for a, b in icons if b - a >= 10]
         self.tools = {name: ((a + b) // 2, (top + bottom) // 2) for name, (a, b) in zip(("Remesh", *TOOLS), icons)}
+        y = (top + bottom) // 2
+        self.remove = max(x for x in range(WIDTH // 2) if rows[y][3 * x:3 * x + 3] != rows[y][3:6]), y
 
     def take(self, name):
         """Presses the button of a tool; pressed again it leaves it."""
@@ -414,6 +416,35 @@ def check_words(session, chance):
     return not fine
 
 
+def check_remove(session, chance):
+    """Remove takes the constraint that is selected, else the last one; an undo each brings it back, with its quads."""
+    session.ask("clear()")
+    session.look(270, 20)
+    for name in ("Stroke", "Valence"):
+        session.take(name)
+        ACTIONS[name](session, chance)
+        session.xdotool("key", "Escape")
+    session.ask("pass")
+
+    def state():
+        return [kind for kind, *_ in session.value("constraints()")], session.value("bytes_of(quads())")
+
+    both = state()
+    kinds = []
+    for selected in ("list(quads().Constraints)[0]", "quads()"):
+        session.ask(f"simple.SetActiveSource({selected})")
+        session.xdotool("mousemove", *session.remove, "sleep", 0.2, "click", 1)
+        session.settle()
+        kinds.append(state()[0])
+        session.xdotool("mousemove", *session.middle(), "key", "ctrl+z")
+        session.settle()
+        kinds.append(state() == both)
+    fine = kinds == [["QuadValence"], True, ["QuadStroke"], True]
+    print(f"what Remove leaves, and whether an undo brings all back: {kinds}: {'fine' if fine else 'BAD'}", flush=True)
+    session.ask("clear()")
+    return not fine
+
+
 def saturation(session, name):
     """Of the most colourful pixel of a button, 0 to 255."""
     x, y = session.tools[name]
@@ -659,7 +690,8 @@ def ring_pixels(session, pixel):
 
 #: Each with a session, random choices and a number of places. The last ones have many quads.
 CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _: check_camera(s, c),
-          "undo": lambda s, c, _: check_undo(s, c), "ball": lambda s, c, _: check_ball(s, c), "handles": check_handles,
+          "undo": lambda s, c, _: check_undo(s, c), "remove": lambda s, c, _: check_remove(s, c),
+          "ball": lambda s, c, _: check_ball(s, c), "handles": check_handles,
           "picks": lambda s, c, n: test_places.check_picks(s, c, 3 * n),
           "strokes": lambda s, c, n: test_places.check_strokes(s, c, 2 * n),
           "selection": lambda s, c, _: test_places.check_selection(s, c),
