@@ -8,10 +8,14 @@
 #include "pqPipelineSource.h"
 #include "pqView.h"
 #include "vtkNew.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMRepresentationProxy.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
+#include "vtkSMTransferFunctionManager.h"
 #include "vtkSMViewProxy.h"
 #include "vtkWeakPointer.h"
 
@@ -32,9 +36,34 @@ void showInstead(vtkSMSourceProxy* filter, vtkSMSourceProxy* surface, vtkSMViewP
   {
     controller->SetVisibility(surface, 0, view, false);
   }
+  leaveColoursOfOneValue(filter, view);
 }
 
 } // namespace
+
+void leaveColoursOfOneValue(vtkSMSourceProxy* filter, vtkSMViewProxy* view)
+{
+  vtkSMProxy* quads = view ? view->FindRepresentation(filter, 0) : nullptr;
+  if (!quads || !quads->GetProperty("ColorArrayName"))
+  {
+    return;
+  }
+  vtkSMPropertyHelper colours(quads, "ColorArrayName");
+  const int association = colours.GetInputArrayAssociation();
+  const char* name = colours.GetInputArrayNameToProcess();
+  vtkPVArrayInformation* array =
+    name ? filter->GetDataInformation(0)->GetArrayInformation(name, association) : nullptr;
+  if (!array || array->GetNumberOfComponents() != 1 ||
+    array->GetComponentRange(0)[0] < array->GetComponentRange(0)[1])
+  {
+    return;
+  }
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", quads);
+  colours.SetInputArrayToProcess(association, "");
+  quads->UpdateVTKObjects();
+  vtkNew<vtkSMTransferFunctionManager> legends;
+  legends->UpdateScalarBars(view, vtkSMTransferFunctionManager::HIDE_UNUSED_SCALAR_BARS);
+}
 
 void setNumbers(vtkSMProxy* proxy, const std::vector<std::pair<std::string, int>>& numbers)
 {

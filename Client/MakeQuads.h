@@ -13,6 +13,8 @@
 
 class pqPipelineSource;
 class vtkSMProxy;
+class vtkSMSourceProxy;
+class vtkSMViewProxy;
 
 namespace quadrille
 {
@@ -26,6 +28,10 @@ struct NewQuads
 
 /// Sets properties, also for the trace.
 void setNumbers(vtkSMProxy* proxy, const std::vector<std::pair<std::string, int>>& numbers);
+
+/// ParaView paints the quads as the surface is painted. By an array of one value, such as the solid of a text STL file
+/// that has one, they would be as blue as their edges: they get no colours by it. view: may be null.
+void leaveColoursOfOneValue(vtkSMSourceProxy* filter, vtkSMViewProxy* view);
 
 /// What is done when quads are shown, or will not be. The filter is null where it is gone.
 using Made = std::function<void(pqQuadrilleRun::End how, vtkSMSourceProxy* filter)>;

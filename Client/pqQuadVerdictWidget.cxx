@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadVerdictWidget.h"
 
+#include "MakeQuads.h"
 #include "RemeshConstraints.h"
 #include "RemeshProblems.h"
 #include "pqQuadrilleRun.h"
@@ -25,6 +26,7 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QScrollArea>
+#include <QTimer>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -104,12 +106,26 @@ void pqQuadVerdictWidget::apply()
   this->Superclass::apply();
   auto* model = pqApplicationCore::instance()->getServerManagerModel();
   auto* source = model->findItem<pqPipelineSource*>(this->proxy());
-  // At first ParaView shows what an execution has given, and hides the surface; so it is waited for.
-  if (quadrille::isQuadRemesh(this->proxy()) && source &&
-    source->modifiedState() != pqProxy::UNINITIALIZED)
+  if (!source || !quadrille::isQuadRemesh(this->proxy()))
+  {
+    return;
+  }
+  if (source->modifiedState() != pqProxy::UNINITIALIZED)
   {
     pqQuadrilleRun::instance()->follow(this->filter());
+    return;
   }
+  // At first ParaView shows what an execution has given, and hides the surface; so it is waited for.
+  QTimer::singleShot(0, this,
+    [this]
+    {
+      const pqScopedUndoExclude noStepOfTheUser;
+      if (pqView* view = pqActiveObjects::instance().activeView())
+      {
+        quadrille::leaveColoursOfOneValue(this->filter(), view->getViewProxy());
+        view->render();
+      }
+    });
 }
 
 //-----------------------------------------------------------------------------

@@ -9,7 +9,7 @@ import math
 import random
 
 import numpy
-from paraview import servermanager
+from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkCutter, vtkStripper
@@ -239,6 +239,23 @@ def point_seen():
         if seen is not None and math.dist(seen, place) < edge_length() / 4 and is_clear(pixel, seen, edge_length() / 2):
             return pixel
     return None
+
+
+def make_labels():
+    """The surface with cells that have one label, painted by it, as ParaView shows a text STL file; selected."""
+    labels = simple.Calculator(Input=quads().Input, AttributeType="Cell Data", ResultArrayName="Label", Function="7")
+    simple.Show(labels, view)
+    simple.ColorBy(simple.GetRepresentation(labels, view), ("CELLS", "Label"))
+    simple.Hide(quads(), view)
+    simple.SetActiveSource(labels)
+
+
+def colour_of_second():
+    """The array by which quads that were made later are painted; None as long as there are none."""
+    second = simple.FindSource("QuadRemesh2")
+    shown = [r for r in view.Representations if second and r.Input and r.Input.SMProxy == second.SMProxy
+             and r.Visibility and r.Input.Port == 0]
+    return shown[0].ColorArrayName[1] if shown and second.GetDataInformation().GetNumberOfCells() > 0 else None
 
 
 def set_defaults(text):

@@ -99,15 +99,22 @@ def draw(session, kind, chance):
     session.ask("global balls_before; balls_before = [output(4).GetPoint(i) for i in "
                 "range(output(4).GetNumberOfPoints())]")
     session.take(test_draw.BUTTONS.get(kind, kind))
+    outcome = test_draw.ACTIONS[kind](session, chance)
+    session.xdotool("key", "Escape")
+    session.settle()
+    return f"{kind} {outcome.met}"
+
+
+def edit_where_seen(session, *how):
+    """As edit(); None, too, where no place for it is clearly seen."""
     try:
-        outcome = test_draw.ACTIONS[kind](session, chance)
+        return edit(session, *how)
     except SystemExit as nowhere:
         if "hardly" not in str(nowhere):
             raise
-        outcome = None
-    session.xdotool("key", "Escape")
-    session.settle()
-    return outcome and f"{kind} {outcome.met}"
+        session.xdotool("key", "Escape")
+        session.settle()
+        return None
 
 
 def session_of(folder, options, number):
@@ -127,7 +134,7 @@ def session_of(folder, options, number):
         wanted = len(options.kinds) or options.edits
         for kind in options.kinds or [None] * 10 * options.edits:
             if len(words) < wanted:
-                word = edit(session, chance, first, kind)
+                word = edit_where_seen(session, chance, first, kind)
                 words += [word] if word else []
         # Each edit writes all constraints into a trace, so only what comes last shows whether an undo is in it.
         words.append(edit(session, chance, first, "Undo"))

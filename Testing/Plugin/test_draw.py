@@ -416,6 +416,19 @@ def check_words(session, chance):
     return not fine
 
 
+def check_labels(session):
+    """Quads are not painted by an array of one value by which their surface is."""
+    session.ask("clear(); make_labels()")
+    session.take("Remesh")
+    session.wait_until("colour_of_second() is not None", seconds=120)
+    session.shot("draw-labels")
+    colour = session.value("colour_of_second()")
+    session.ask("simple.Delete(simple.FindSource('QuadRemesh2')); simple.Delete(simple.FindSource('Calculator1')); "
+                "simple.Show(quads(), view); clear()")
+    print(f"quads of a surface with labels are painted by {colour!r}: {'BAD' if colour else 'fine'}", flush=True)
+    return colour != ""
+
+
 def check_remove(session, chance):
     """Remove takes the constraint that is selected, else the last one; an undo each brings it back, with its quads."""
     session.ask("clear()")
@@ -695,7 +708,7 @@ CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _
           "picks": lambda s, c, n: test_places.check_picks(s, c, 3 * n),
           "strokes": lambda s, c, n: test_places.check_strokes(s, c, 2 * n),
           "selection": lambda s, c, _: test_places.check_selection(s, c),
-          "words": lambda s, c, _: check_words(s, c),
+          "words": lambda s, c, _: check_words(s, c), "labels": lambda s, c, _: check_labels(s),
           "number": lambda s, c, _: check_number(s), "stop": lambda s, c, _: check_stop(s, c),
           "save": lambda s, c, _: check_save(s, c), "delete": lambda s, c, _: check_delete(s, c),
           "close": lambda s, c, _: check_close(s)}
