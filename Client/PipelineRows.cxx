@@ -12,7 +12,9 @@
 #include "pqRepresentation.h"
 #include "pqServerManagerModel.h"
 #include "pqView.h"
+#include "vtkPVXMLElement.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMProxyLocator.h"
 
 #include <QObject>
 #include <QPointer>
@@ -31,6 +33,20 @@ void selectAgain()
 {
   pqActiveObjects& active = pqActiveObjects::instance();
   Q_EMIT active.selectionChanged(active.selection());
+}
+
+/// ParaView selects nothing when it has loaded a state.
+void selectQuadRemesh()
+{
+  pqActiveObjects& active = pqActiveObjects::instance();
+  for (pqPipelineSource* source :
+    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>())
+  {
+    if (!active.activeSource() && isQuadRemesh(source->getProxy()))
+    {
+      active.setActiveSource(source);
+    }
+  }
 }
 
 /// ParaView hides the first output of a filter that is deleted, and shows any input instead that has a representation;
@@ -110,6 +126,8 @@ void keepRows(QObject* parent)
     QObject::connect(model, changed, parent, look);
   }
   new Surfaces(parent);
+  QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, parent,
+    [parent] { QTimer::singleShot(0, parent, &selectQuadRemesh); });
 }
 
 } // namespace quadrille

@@ -62,12 +62,20 @@ void allow(QAction* action, const QString& reasonNot)
   action->setToolTip(reasonNot.isEmpty() ? help : help + ".\n\nNot now: " + reasonNot);
 }
 
+/// Whether the pipeline is empty.
+bool isNothingThere()
+{
+  auto* model = pqApplicationCore::instance()->getServerManagerModel();
+  return model->findItems<pqPipelineSource*>().empty();
+}
+
 /// Why no quads can be made of what is selected; empty where they can.
 QString whyNoQuads(pqPipelineSource* selected)
 {
   if (!selected)
   {
-    return "there is no surface: open one with File > Open, and Apply.";
+    return isNothingThere() ? "there is no surface: open one with File > Open, and Apply."
+                            : "nothing is selected: select a surface in the pipeline.";
   }
   if (selected->modifiedState() == pqProxy::UNINITIALIZED)
   {
@@ -101,7 +109,8 @@ QString whyNoDrawing(pqPipelineSource* selected)
   }
   return selected ? selected->getSMName() +
       " has no Quad Remesh: select one in the pipeline, or make one with the first button."
-                  : QString("there is no Quad Remesh: the first button makes one.");
+    : isNothingThere() ? QString("there is no Quad Remesh: the first button makes one.")
+                       : QString("nothing is selected: select a Quad Remesh in the pipeline.");
 }
 
 } // namespace
