@@ -8,7 +8,6 @@
 #include "Filling/FaceTriangulation.h"
 #include "Filling/QuadCleanUp.h"
 #include "Filling/TrianglePairing.h"
-#include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 #include "Quads/QuadShape.h"
 #include "Quads/QuadTopology.h"
@@ -22,12 +21,6 @@ namespace quadrille
 
 namespace
 {
-
-/// Where quads are inverted, smaller ones are tried round them, as rings and strips have too little room for the wanted
-/// ones.
-constexpr int kMostSizes = 2;
-constexpr double kShrinkInFace = 0.8;
-constexpr double kShrinkRadius = 1.5; ///< edge lengths
 
 bool canBeFilled(
   const TopologySummary& topology, const std::vector<std::uint8_t>& isPin, const FaceGround& ground)
@@ -116,28 +109,6 @@ bool fillsFace(const FaceQuads& quads, const std::vector<Index>& pins, const Fac
   return count == pins.size();
 }
 
-FaceQuads makeQuads(const Mesh& face, const FaceGround& ground, const std::vector<Index>& pins)
-{
-  FaceTriangles triangles = triangulateFace(face, ground);
-  FaceQuads quads = ownPoints(ground, triangles, pairTriangles(triangles), pins);
-  cleanUpQuads(quads, ground);
-  return quads;
-}
-
-std::vector<Vector3> invertedPlaces(const FaceQuads& mesh)
-{
-  std::vector<Vector3> places;
-  for (const std::array<Index, 4>& quad : mesh.quads)
-  {
-    if (!(shapeOfQuad(mesh, quad) > 0))
-    {
-      const std::array<Vector3, 4> corners = cornersOf(mesh.points, quad);
-      places.push_back((corners[0] + corners[1] + corners[2] + corners[3]) / 4);
-    }
-  }
-  return places;
-}
-
 /// Points that were dropped get no id.
 FaceFill toFill(const FaceQuads& mesh, const std::vector<Index>& pins, Index vertexCount,
   const FaceGround& ground)
@@ -188,34 +159,12 @@ std::optional<FaceFill> fillFace(
   {
     return one;
   }
-  Mesh sized = face;
-  std::optional<FaceQuads> best;
-  std::vector<Vector3> places, bestPlaces; // of inverted quads
-  for (int i = 0; i <= kMostSizes; ++i)
-  {
-    if (i > 0)
-    {
-      scaleSizesNear(sized, places, kShrinkRadius * edgeLength, kShrinkInFace);
-      limitSizeGrowth(sized, edgeLength);
-    }
-    FaceQuads quads = makeQuads(face, FaceGround(sized, isPin, edgeLength), pins);
-    if (!fillsFace(quads, pins, ground, topology.eulerCharacteristic))
-    {
-      break;
-    }
-    places = invertedPlaces(quads);
-    if (!best || places.size() < bestPlaces.size())
-    {
-      best = std::move(quads);
-      bestPlaces = places;
-    }
-    if (places.empty())
-    {
-      break;
-    }
-  }
-  return best ? std::optional<FaceFill>(toFill(*best, pins, face.vertexCount(), ground))
-              : std::nullopt;
+  FaceTriangles triangles = triangulateFace(face, ground);
+  FaceQuads quads = ownPoints(ground, triangles, pairTriangles(triangles), pins);
+  cleanUpQuads(quads, ground);
+  return fillsFace(quads, pins, ground, topology.eulerCharacteristic)
+    ? std::optional<FaceFill>(toFill(quads, pins, face.vertexCount(), ground))
+    : std::nullopt;
 }
 
 } // namespace quadrille

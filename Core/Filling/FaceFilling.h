@@ -33,7 +33,7 @@ struct FaceFill
 /// number, and 4 at least.
 /// edgeLength: that the quads should have, > 0, in units of the mesh; times the face's sizes where it has some (see
 /// Mesh/Sizing.h). Edges come to be about a twentieth shorter. Near pins that stand closer together the quads are
-/// smaller, and so are all where the wanted ones have too little room and are bad.
+/// smaller.
 /// A disc with 4 pins becomes one quad, if that is not turned over.
 /// None where the face or the pins are not as said. Else there is an answer: the quads are a manifold with the face's
 /// Euler characteristic, and that is checked. Single quads may be turned over where pins stand several edge lengths

@@ -12,10 +12,8 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <queue>
 #include <sstream>
 #include <utility>
@@ -226,45 +224,6 @@ SizingReport limitSizeGrowth(Mesh& mesh, double edgeLength)
     }
   }
   return report;
-}
-
-std::size_t scaleSizesNear(
-  Mesh& mesh, const std::vector<Vector3>& places, double radius, double factor)
-{
-  // Cells of a grid, each with the places that a vertex in it may be near to.
-  using Cell = std::array<std::int64_t, 3>;
-  const auto cellOf = [&](const Vector3& p) -> Cell
-  {
-    return { static_cast<std::int64_t>(std::floor(p.x() / radius)),
-      static_cast<std::int64_t>(std::floor(p.y() / radius)),
-      static_cast<std::int64_t>(std::floor(p.z() / radius)) };
-  };
-  std::map<Cell, std::vector<std::size_t>> near;
-  for (std::size_t i = 0; i < places.size(); ++i)
-  {
-    const Cell middle = cellOf(places[i]);
-    for (int k = 0; k < 27; ++k)
-    {
-      near[{ middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1 }].push_back(
-        i);
-    }
-  }
-  mesh.sizing.resize(mesh.vertexCount(), 1.0F);
-  std::size_t count = 0;
-  for (Index v = 0; v < mesh.vertexCount(); ++v)
-  {
-    pollNowAndThen(v);
-    const Vector3& p = mesh.position[v];
-    const auto found = near.find(cellOf(p));
-    if (found != near.end() &&
-      std::any_of(found->second.begin(), found->second.end(),
-        [&](std::size_t i) { return (places[i] - p).norm() < radius; }))
-    {
-      mesh.sizing.edit()[v] = static_cast<float>(factor * double{ mesh.sizing[v] });
-      ++count;
-    }
-  }
-  return count;
 }
 
 std::string sizingNotice(const Mesh& mesh, const SizingReport& report)

@@ -80,11 +80,6 @@ struct SizingReport
 /// Throws InvalidInput unless edgeLength is positive and finite. Without sizes nothing happens.
 SizingReport limitSizeGrowth(Mesh& mesh, double edgeLength);
 
-/// Multiplies the sizes of the vertices within `radius` (> 0, units of the mesh) of any place; a mesh without sizes
-/// gets them. Returns how many there are.
-std::size_t scaleSizesNear(
-  Mesh& mesh, const std::vector<Vector3>& places, double radius, double factor);
-
 /// Empty, or what the user should know.
 std::string sizingNotice(const Mesh& mesh, const SizingReport& report);
 

@@ -198,29 +198,6 @@ TEST(Sizing, FeaturesAreMeasuredInSizes)
   EXPECT_EQ(removeUnresolvedFeatures(sized, 4).removedEdges, 0U);
 }
 
-TEST(Sizing, AreScaledNearPlacesOnly)
-{
-  Mesh mesh = gridPlane(20, 20);
-  const std::vector<Vector3> places{ { 5, 5, 0 }, { 5.5, 5, 0 }, { 15, 15, 0 } };
-  const std::size_t count = scaleSizesNear(mesh, places, 2.25, 0.5);
-  ASSERT_EQ(mesh.sizing.size(), mesh.position.size());
-  std::size_t inside = 0;
-  for (Index v = 0; v < mesh.vertexCount(); ++v)
-  {
-    double nearest = 100;
-    for (const Vector3& p : places)
-    {
-      nearest = std::min(nearest, (p - mesh.position[v]).norm());
-    }
-    // Once, however many places are near.
-    EXPECT_EQ(mesh.sizing[v], nearest < 2.25 ? 0.5F : 1.0F);
-    inside += nearest < 2.25 ? 1 : 0;
-  }
-  EXPECT_EQ(count, inside);
-  scaleSizesNear(mesh, { { 5, 5, 0 } }, 0.5, 0.5);
-  EXPECT_EQ(*std::min_element(mesh.sizing.begin(), mesh.sizing.end()), 0.25F);
-}
-
 TEST(Sizing, WrongSizesAreRefusedByName)
 {
   const auto message = [](float size)
