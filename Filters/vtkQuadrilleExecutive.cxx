@@ -6,7 +6,37 @@
 #include "vtkQuadrilleAlgorithm.h"
 
 #include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+
+namespace
+{
+
+/// All outputs are made at once, so they are for the piece that one of them is asked for. Where that is not the first
+/// one, as in a view that shows another one before it, the others would be taken for those of a serial run.
+void askAlike(vtkInformation* request, vtkInformationVector* outputs)
+{
+  using Executive = vtkStreamingDemandDrivenPipeline;
+  const auto key = vtkExecutive::FROM_OUTPUT_PORT();
+  vtkInformation* asked =
+    request->Has(key) ? outputs->GetInformationObject(request->Get(key)) : nullptr;
+  if (!asked || !asked->Has(Executive::UPDATE_PIECE_NUMBER()))
+  {
+    return;
+  }
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkInformation* info = outputs->GetInformationObject(port);
+    for (vtkInformationIntegerKey* piece : { Executive::UPDATE_PIECE_NUMBER(),
+           Executive::UPDATE_NUMBER_OF_PIECES(), Executive::UPDATE_NUMBER_OF_GHOST_LEVELS() })
+    {
+      info->CopyEntry(asked, piece);
+    }
+  }
+}
+
+} // namespace
 
 vtkStandardNewMacro(vtkQuadrilleExecutive);
 
@@ -18,6 +48,10 @@ vtkQuadrilleExecutive::~vtkQuadrilleExecutive() = default;
 vtkTypeBool vtkQuadrilleExecutive::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  if (request->Has(REQUEST_UPDATE_EXTENT()) || request->Has(REQUEST_DATA()))
+  {
+    askAlike(request, outputs);
+  }
   const vtkTypeBool done = this->Superclass::ProcessRequest(request, inputs, outputs);
   auto* filter = vtkQuadrilleAlgorithm::SafeDownCast(this->GetAlgorithm());
   if (request->Has(REQUEST_DATA()) && filter &&

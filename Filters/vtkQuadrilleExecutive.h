@@ -5,7 +5,8 @@
  * @brief   executes a filter of Quadrille in a parallel run also where a filter upstream failed
  *
  * An executive does not execute its filter where something upstream fails. If that happens on one rank only, the filter
- * waits on the others for a rank that never comes. This executive goes on, and the filter tells all ranks.
+ * waits on the others for a rank that never comes. This executive goes on, and the filter tells all ranks. All outputs
+ * are made for the piece that one of them is asked for, whichever that is.
  */
 #ifndef vtkQuadrilleExecutive_h
 #define vtkQuadrilleExecutive_h

@@ -9,7 +9,9 @@ import sys
 import quadrille  # the classes behind the proxies
 import quick_start  # before simple
 from paraview import servermanager, simple
+from vtkmodules.vtkCommonCore import vtkInformation, vtkInformationVector
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from plugin_common import ARTIFACTS, DATA, PLUGIN, check
@@ -57,8 +59,9 @@ def open_edges(data):
     return list(uses.values()).count(1)
 
 
-def tell(name, filter_proxy, port=0):
-    filter_proxy.UpdatePipeline()
+def tell(name, filter_proxy, port=0, updates=True):
+    if updates:
+        filter_proxy.UpdatePipeline()
     raw = filter_proxy.GetClientSideObject()
     lines = []
     for block, data in blocks(raw.GetOutputDataObject(port)):
@@ -74,6 +77,16 @@ def tell(name, filter_proxy, port=0):
     with open(os.path.join(os.environ["QUADRILLE_MPI_FACTS"], str(RANK)), "a") as facts:
         facts.write("\n".join(lines) + "\n")
     return raw
+
+
+def tell_after(name, filter_proxy, port):
+    """What tell() tells where another output is looked at, as where a window shows marks before quads."""
+    request, requests = vtkInformation(), vtkInformationVector()
+    request.Set(vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER(), RANK)
+    request.Set(vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_PIECES(), RANKS)
+    requests.SetInformationObject(port, request)
+    filter_proxy.GetClientSideObject().Update(port, requests)
+    return tell(name, filter_proxy, updates=False)
 
 
 def remesh(source, quads=600, **options):
@@ -178,7 +191,8 @@ def tell_closed(name, filter_proxy):
 
 CASES = {
     "sources": lambda: [tell("sphere", remesh(sphere())), tell("torus", remesh(torus()))],
-    "files": lambda: [tell("ply", remesh(ply())), tell("vtu", remesh(tetrahedra()))],
+    "files": lambda: [tell("ply", remesh(ply())), tell("vtu", remesh(tetrahedra())),
+                      tell_after("irregular vertices first", remesh(ply()), 4)],
     "redistribute": lambda: [
         tell("redistributed", remesh(simple.RedistributeDataSet(Input=ply()))),
         tell("redistributed torus", remesh(simple.RedistributeDataSet(Input=torus())))],
