@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -173,6 +174,55 @@ TEST(GivenUpFeatures, FacesBetweenBordersAreFilled)
     const RemeshResult again = remesh(input, options);
     EXPECT_EQ(again.quads.points, result.quads.points);
     EXPECT_EQ(again.quads.quads, result.quads.quads);
+  }
+}
+
+/// A tube with so many edges of length 1 round it, and lids.
+SurfaceInput closedTube(int edges, double length)
+{
+  const Mesh mesh = test::openCylinder(48, length < 1 ? 1 : 10, edges * 0.95 / (2 * kPi), length);
+  SurfaceInput input = test::toInput(mesh);
+  std::map<Index, Index> before; // on a lid, which runs the other way
+  for (const Index h : boundaryHalfEdges(mesh))
+  {
+    before[mesh.target(h)] = mesh.origin[h];
+  }
+  while (!before.empty())
+  {
+    Index v = before.begin()->first;
+    for (auto at = before.find(v); at != before.end(); at = before.find(v))
+    {
+      input.polygonPoints.push_back(Index{ v });
+      v = at->second;
+      before.erase(at);
+    }
+    input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
+  }
+  return input;
+}
+
+/// Edges over a third of the way round leave a tube, so that no places on it make good quads; points leave it, too.
+TEST(GivenUpFeatures, FilledTubesHaveGoodQuads)
+{
+  for (const int edges : { 3, 4, 5 })
+  {
+    for (const double length : { 0.3, 1.0, 2.0, 5.0, 30.0 })
+    {
+      SurfaceInput input = closedTube(edges, length);
+      const double radius = input.points[0].x();
+      input.withoutMap = { { radius, 0, length / 2 }, { radius / 3, 0, 0 },
+        { radius / 3, 0, length } };
+      RemeshOptions options = quadsOfLength(1);
+      options.smallDetails = SmallDetails::Keep;
+      const RemeshResult result = remesh(input, options);
+      ASSERT_TRUE(result.status.ok()) << result.status.message;
+      EXPECT_EQ(result.certificate.withoutMap, result.surface.mesh.faceCount());
+      for (const std::array<Index, 4>& quad : result.quads.quads)
+      {
+        EXPECT_GT(scaledJacobian(cornersOf(result.quads.points, quad)), 0.3)
+          << edges << " edges, length " << length;
+      }
+    }
   }
 }
 
