@@ -881,6 +881,7 @@ void pqQuadrilleDrawing::execute(
   vtkSMSourceProxy* filter, const std::string& source, const QString& remark)
 {
   const vtkWeakPointer<vtkSMSourceProxy> executed = filter;
+  pqQuadrilleRun::prepare(filter); // so that what is looked at is what was made before
   const int unmetBefore = quadrille::countUnmet(filter);
   pqQuadrilleRun::instance()->start(filter,
     [this, executed, source, remark, unmetBefore](pqQuadrilleRun::End how)

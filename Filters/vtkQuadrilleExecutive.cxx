@@ -28,11 +28,8 @@ void askAlike(vtkInformation* request, vtkInformationVector* outputs)
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkInformation* info = outputs->GetInformationObject(port);
-    for (vtkInformationIntegerKey* piece : { Executive::UPDATE_PIECE_NUMBER(),
-           Executive::UPDATE_NUMBER_OF_PIECES(), Executive::UPDATE_NUMBER_OF_GHOST_LEVELS() })
-    {
-      info->CopyEntry(asked, piece);
-    }
+    info->CopyEntry(asked, Executive::UPDATE_PIECE_NUMBER());
+    info->CopyEntry(asked, Executive::UPDATE_NUMBER_OF_PIECES());
   }
 }
 
@@ -48,7 +45,7 @@ vtkQuadrilleExecutive::~vtkQuadrilleExecutive() = default;
 vtkTypeBool vtkQuadrilleExecutive::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (request->Has(REQUEST_UPDATE_EXTENT()) || request->Has(REQUEST_DATA()))
+  if (request->Has(REQUEST_UPDATE_EXTENT()))
   {
     askAlike(request, outputs);
   }

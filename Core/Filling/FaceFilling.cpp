@@ -9,12 +9,10 @@
 #include "Filling/QuadCleanUp.h"
 #include "Filling/TrianglePairing.h"
 #include "Mesh/Topology.h"
-#include "Quads/QuadShape.h"
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 namespace quadrille
 {

@@ -59,9 +59,12 @@ def open_edges(data):
     return list(uses.values()).count(1)
 
 
-def tell(name, filter_proxy, port=0, updates=True):
-    if updates:
-        filter_proxy.UpdatePipeline()
+def tell(name, filter_proxy, port=0):
+    filter_proxy.UpdatePipeline()
+    return tell_as_it_is(name, filter_proxy, port)
+
+
+def tell_as_it_is(name, filter_proxy, port=0):
     raw = filter_proxy.GetClientSideObject()
     lines = []
     for block, data in blocks(raw.GetOutputDataObject(port)):
@@ -86,7 +89,7 @@ def tell_after(name, filter_proxy, port):
     request.Set(vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_PIECES(), RANKS)
     requests.SetInformationObject(port, request)
     filter_proxy.GetClientSideObject().Update(port, requests)
-    return tell(name, filter_proxy, updates=False)
+    return tell_as_it_is(name, filter_proxy)
 
 
 def remesh(source, quads=600, **options):

@@ -19,7 +19,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -182,21 +182,20 @@ SurfaceInput closedTube(int edges, double length)
 {
   const Mesh mesh = test::openCylinder(48, length < 1 ? 1 : 10, edges * 0.95 / (2 * kPi), length);
   SurfaceInput input = test::toInput(mesh);
-  std::map<Index, Index> before; // on a lid, which runs the other way
-  for (const Index h : boundaryHalfEdges(mesh))
+  std::vector<std::uint8_t> isDone(mesh.halfEdgeCount(), 0);
+  for (const Index first : boundaryHalfEdges(mesh))
   {
-    before[mesh.target(h)] = mesh.origin[h];
-  }
-  while (!before.empty())
-  {
-    Index v = before.begin()->first;
-    for (auto at = before.find(v); at != before.end(); at = before.find(v))
+    std::vector<Index> lid;
+    for (Index h = first; isDone[h] == 0; h = nextOnBoundary(mesh, h))
     {
-      input.polygonPoints.push_back(Index{ v });
-      v = at->second;
-      before.erase(at);
+      isDone[h] = 1;
+      lid.push_back(mesh.origin[h]);
     }
-    input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
+    if (!lid.empty())
+    {
+      std::for_each(lid.rbegin(), lid.rend(), [&](Index v) { input.polygonPoints.push_back(v); });
+      input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
+    }
   }
   return input;
 }
