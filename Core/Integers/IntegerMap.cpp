@@ -277,14 +277,24 @@ void IntegerMap::round(double scale)
 
 bool IntegerMap::adopt(const std::vector<FixedVec2>& uv)
 {
-  constexpr int kGrainBits = kFractionBits - 4; // of a sixteenth
-  static_assert(std::int64_t{ 1 } << kGrainBits == kOne / kGrain);
-  // Rounds up on a tie everywhere, so that whole translations change nothing.
-  const auto nearestGrain = [](std::int64_t x)
-  { return (x + (std::int64_t{ 1 } << (kGrainBits - 1))) >> kGrainBits; };
-  const auto grains = [&](FixedVec2 p) {
-    return FixedVec2{ nearestGrain(p.u), nearestGrain(p.v) };
-  };
+  constexpr std::int64_t kSixteenth = kOne / kGrain;
+  const auto nearestSixteenth = [](std::int64_t x)
+  { return (x + kSixteenth / 2) & ~(kSixteenth - 1); };
+  // A vertex is rounded in one of its charts and goes the same way in the others: charts that are turned against each
+  // other would round the middle between two sixteenths to different sides, and no triangle there would close.
+  std::vector<FixedVec2> at = uv;
+  for (const Index v : freeVertices_)
+  {
+    const FixedVec2 p = uv[mesh_.outgoing[v]];
+    visitStar(v, FixedVec2{ nearestSixteenth(p.u), nearestSixteenth(p.v) } - p,
+      [&](Index h, FixedVec2 e, bool leaves)
+      {
+        if (leaves)
+        {
+          at[h] = at[h] + e;
+        }
+      });
+  }
   for (const Index f : faces_)
   {
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
@@ -294,7 +304,8 @@ bool IntegerMap::adopt(const std::vector<FixedVec2>& uv)
       {
         continue;
       }
-      q_[h] = grains(uv[Mesh::next(h)]) - grains(uv[h]);
+      const FixedVec2 d = at[Mesh::next(h)] - at[h];
+      q_[h] = { d.u / kSixteenth, d.v / kSixteenth };
       if (!mayShift(h, {}) || (axis_[h] == kOnlyU && q_[h].v != 0) ||
         (axis_[h] == kOnlyV && q_[h].u != 0))
       {

@@ -323,6 +323,44 @@ TEST(Quantize, IntegersOfAnotherScaleAreAStart)
   }
 }
 
+TEST(IntegerMap, TrianglesOfAnotherMapCloseInAnyCharts)
+{
+  SyntheticMap map;
+  map.mesh = plateL(3);
+  std::vector<std::uint8_t> onBoundary(map.mesh.vertexCount(), 0);
+  for (Index h = 0; h < map.mesh.halfEdgeCount(); ++h)
+  {
+    onBoundary[map.mesh.origin[h]] |= map.mesh.isBoundary(h) ? 1 : 0;
+  }
+  for (const bool isTurned : { false, true })
+  {
+    SCOPED_TRACE(isTurned);
+    map.uv.clear();
+    for (Index h = 0; h < map.mesh.halfEdgeCount(); ++h)
+    {
+      const Index v = map.mesh.origin[h];
+      const Vector3& p = map.mesh.position[v];
+      FixedVec2 corner = toFixed(Vector2(p.x(), p.y()));
+      if (onBoundary[v] == 0)
+      {
+        // As far from one sixteenth as from the next.
+        corner = corner + FixedVec2{ kOne / 32, 3 * kOne / 32 };
+      }
+      map.uv.push_back(rotate(corner, isTurned ? static_cast<int>(Mesh::face(h) % 4) : 0));
+    }
+    map.field = fieldOf(map.mesh, map.uv);
+    UvMesh uvMesh = UvMesh::from(map.mesh, map.field, map.uv);
+    UvEditor editor(uvMesh);
+    IntegerMap integers(uvMesh, editor, integerVertices(map.mesh, map.field));
+    ASSERT_TRUE(integers.adopt(map.uv));
+    for (const Index f : integers.faces())
+    {
+      EXPECT_EQ(integers.residual(f), FixedVec2{}) << f;
+    }
+    EXPECT_TRUE(repairValidIntegers(integers).valid);
+  }
+}
+
 TEST(Quantize, IsDeterministic)
 {
   const SyntheticMap map = staircaseMap(4, 4, 4, 4, 2.2, true, 9);
