@@ -31,6 +31,7 @@ constexpr double kNoMore = 0.05;
 constexpr double kLeastFacing = 0.1;
 /// Vertices of the largest disc that is looked at; stubs are shorter than quads, or thin.
 constexpr std::size_t kMostVertices = 20000;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A fan over the edge of a disc.
 struct MouthFan
@@ -51,18 +52,28 @@ public:
     leaving_[mesh_.origin[h]] = { 0, h };
   }
 
-  /// False where discs do not open.
+  /// False where discs do not open. One has opened where its edge stays that long for as far as its longest edge leads:
+  /// along a tube of long triangles it zigzags between two rings of vertices until it has all of the next one.
   bool run()
   {
-    while (!reached_.empty() && inside_.size() < kMostVertices && length_ <= open_)
+    double openUntil = kNever;
+    while (!reached_.empty() && inside_.size() < kMostVertices && reached_.top().first <= openUntil)
     {
       const auto [distance, v] = reached_.top();
       reached_.pop();
       if (inside_.count(v) == 0 && !enter(v))
       {
-        return false;
+        return openUntil < kNever;
       }
-      if (length_ > 0 && length_ <= kWidestMouth * girth_)
+      if (length_ <= open_)
+      {
+        openUntil = kNever;
+      }
+      else if (openUntil == kNever)
+      {
+        openUntil = distance + longestOfEdge();
+      }
+      if (length_ > 0 && length_ <= std::min(kWidestMouth * girth_, open_))
       {
         measure();
       }
@@ -151,6 +162,16 @@ private:
       }
     }
     return true;
+  }
+
+  double longestOfEdge() const
+  {
+    double longest = 0;
+    for (const Index h : edge_)
+    {
+      longest = std::max(longest, mesh_.edgeVector(h).norm());
+    }
+    return longest;
   }
 
   void measure()

@@ -68,12 +68,13 @@ SurfaceInput drilledPlate()
 }
 
 /// Of the vertices on the wall of the hole, between its mouths.
-std::size_t countInHole(const Mesh& mesh)
+std::size_t countInHole(const Mesh& mesh, double height = 3)
 {
   return static_cast<std::size_t>(std::count_if(mesh.position.begin(), mesh.position.end(),
-    [](const Vector3& p)
+    [height](const Vector3& p)
     {
-      return std::max(std::abs(p.x() - 4.5), std::abs(p.y() - 4.5)) < 0.6 && p.z() > 0 && p.z() < 3;
+      return std::max(std::abs(p.x() - 4.5), std::abs(p.y() - 4.5)) < 0.6 && p.z() > 0 &&
+        p.z() < height;
     }));
 }
 
@@ -86,6 +87,25 @@ TEST(CloseHandles, HoleThroughAPlateIsFilledUpToItsMouths)
   EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 2);
   EXPECT_EQ(countInHole(surface.mesh), 0u);
   EXPECT_NEAR(surface.area, 2 * 81 + 4 * 27, 1e-9) << "a plate without a hole";
+  EXPECT_NEAR(surface.area, test::area(surface.mesh), 1e-9);
+  expectSourcesFit(surface);
+}
+
+/// As CAD programs write a bore: what is round it is far shorter than the triangles along it.
+TEST(CloseHandles, BoreOfLongTrianglesIsFilledUpToItsMouths)
+{
+  Mesh plate =
+    test::voxelSurface({ 9, 9, 3 }, 1, [](int x, int y, int) { return x != 4 || y != 4; });
+  for (Vector3& p : plate.position.editAll())
+  {
+    p.z() *= 10;
+  }
+  PreparedSurface surface = test::prepare(test::toInput(plate));
+  ASSERT_EQ(closeHandles(surface, placesOf(surface.mesh, 4.1), 8.2).size(), 1u);
+  EXPECT_EQ(validate(surface.mesh), "");
+  EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 2);
+  EXPECT_EQ(countInHole(surface.mesh, 30), 0u);
+  EXPECT_NEAR(surface.area, 2 * 81 + 4 * 270, 1e-9) << "a block without a bore";
   EXPECT_NEAR(surface.area, test::area(surface.mesh), 1e-9);
   expectSourcesFit(surface);
 }
