@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/ReducedTriangles.h"
 
-#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <utility>
 
 namespace quadrille
 {
@@ -101,26 +102,43 @@ void ReducedTriangles::collectUnknowns(const UntangleProblem& problem)
 void ReducedTriangles::buildPattern()
 {
   const Eigen::Index count = hessian_.cols();
-  std::vector<std::vector<int>> columns(count);
-  for (Eigen::Index j = 0; j < count; ++j)
+  // Where each unknown stands among those of the triangles, by unknowns, and where those of the triangle end.
+  std::vector<std::size_t> placeBegin(count + 1, 0), place(unknown_.size()), end(unknown_.size());
+  for (const int u : unknown_)
   {
-    columns[j].push_back(static_cast<int>(j));
+    ++placeBegin[u + 1];
   }
+  std::partial_sum(placeBegin.begin(), placeBegin.end(), placeBegin.begin());
+  std::vector<std::size_t> next(placeBegin.begin(), placeBegin.end() - 1);
   for (std::size_t t = 0; t < triangles(); ++t)
   {
     pollNowAndThen(t, kTrianglesBetweenPolls);
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {
-      std::vector<int>& column = columns[unknown_[a]];
-      column.insert(column.end(), unknown_.begin() + a + 1, unknown_.begin() + begin_[t + 1]);
+      place[next[unknown_[a]]++] = a;
+      end[a] = begin_[t + 1];
     }
   }
+  std::vector<std::vector<int>> columns(count);
   std::vector<int> start(count + 1, 0);
-  for (Eigen::Index j = 0; j < count; ++j)
+  std::vector<int> seenBy(count, -1);
+  for (int j = 0; j < count; ++j)
   {
     pollNowAndThen(static_cast<std::size_t>(j), kTrianglesBetweenPolls);
-    sortUnique(columns[j]);
-    start[j + 1] = start[j] + static_cast<int>(columns[j].size());
+    std::vector<int>& column = columns[j];
+    column.push_back(j);
+    for (std::size_t i = placeBegin[j]; i < placeBegin[j + 1]; ++i)
+    {
+      for (std::size_t b = place[i] + 1; b < end[place[i]]; ++b)
+      {
+        if (std::exchange(seenBy[unknown_[b]], j) != j)
+        {
+          column.push_back(unknown_[b]);
+        }
+      }
+    }
+    std::sort(column.begin(), column.end());
+    start[j + 1] = start[j] + static_cast<int>(column.size());
   }
   hessian_.resizeNonZeros(start[count]);
   std::copy(start.begin(), start.end(), hessian_.outerIndexPtr());
