@@ -3,8 +3,8 @@
 #include "Filling/FaceCurves.h"
 
 #include "Base/Lists.h"
+#include "Mesh/BentCurves.h"
 #include "Mesh/CutOpen.h"
-#include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ std::vector<Index> ranksOnLoops(const std::vector<Index>& next)
 } // namespace
 
 FaceCurves::FaceCurves(const Mesh& mesh, std::vector<std::uint8_t> isGiven, double edgeLength)
-  : mesh_(mesh), isGiven_(std::move(isGiven)), edgeLength_(edgeLength),
+  : mesh_(mesh), isGiven_(std::move(isGiven)), quads_(quadsAlongCurves(mesh, edgeLength)),
     edges_(constrainedEdges(mesh)), at_(mesh.vertexCount())
 {
   Mesh opened = mesh;
@@ -121,7 +121,7 @@ FaceCurve FaceCurves::trace(CurveStep first, std::vector<std::uint8_t>& isDone) 
   {
     isDone[step->h] = 1;
     curve.steps.push_back(*step);
-    curve.length += sizedLength(mesh_, step->h) / edgeLength_;
+    curve.length += quads_[step->h];
   }
   curve.closed = endOf(curve.steps.back()) == beginOf(first);
   return curve;
@@ -313,7 +313,7 @@ std::vector<CurvePoint> FaceCurves::pointsAlong(const FaceCurve& curve) const
   std::size_t next = 1;
   for (const CurveStep& step : curve.steps)
   {
-    const double length = sizedLength(mesh_, step.h) / edgeLength_;
+    const double length = quads_[step.h];
     for (; next < curve.edges && apart * static_cast<double>(next) < gone + length; ++next)
     {
       const double part = (apart * static_cast<double>(next) - gone) / length;

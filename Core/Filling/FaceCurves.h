@@ -97,7 +97,7 @@ private:
 
   const Mesh& mesh_;
   std::vector<std::uint8_t> isGiven_;
-  double edgeLength_;
+  std::vector<double> quads_; ///< #H, see quadsAlongCurves
   std::vector<Index> faceOf_;
   Index faces_ = 0;
   std::vector<Index> loopOf_; ///< of boundaries of faces, per half-edge; kInvalidIndex inside

@@ -41,12 +41,13 @@ std::int64_t nearestWithSign(double x, std::int64_t residue)
 
 } // namespace
 
-IntegerMap::IntegerMap(
-  UvMesh& mesh, UvEditor& editor, const std::vector<std::uint8_t>& integerVertex)
+IntegerMap::IntegerMap(UvMesh& mesh, UvEditor& editor,
+  const std::vector<std::uint8_t>& integerVertex, std::vector<double> shares)
   : mesh_(mesh), editor_(editor), integerVertex_(integerVertex), q_(mesh.origin.size()),
-    axis_(mesh.origin.size(), kFree), wanted_(mesh.origin.size(), Vector2::Zero()),
-    weight_(mesh.origin.size(), 0)
+    axis_(mesh.origin.size(), kFree), shares_(std::move(shares)),
+    wanted_(mesh.origin.size(), Vector2::Zero()), weight_(mesh.origin.size(), 0)
 {
+  shares_.resize(mesh.origin.size(), 1.0);
   for (Index f = 0; f < mesh_.alive.size(); ++f)
   {
     if (mesh_.alive[f])
@@ -75,7 +76,7 @@ IntegerMap::IntegerMap(
       freeVertices_.push_back(v);
     }
   }
-  turns_ = windings([&](Index h) { return wanted_[h]; });
+  turns_ = windings([&](Index h) { return seamless(h); });
   findLoops();
 }
 
@@ -144,15 +145,15 @@ FixedVec2 IntegerMap::along(Index h) const
 void IntegerMap::measure(Index h)
 {
   const FixedVec2 d = mesh_.vector(h);
-  wanted_[h] = toDouble(d);
+  wanted_[h] = shares_[h] * toDouble(d);
   const bool constrained = mesh_.twin[h] == kInvalidIndex || (mesh_.flags[h] & kUvConstrained) != 0;
   axis_[h] = !constrained ? kFree : d.v == 0 ? kOnlyU : kOnlyV;
 }
 
-/// Cotangent of the wanted angle opposite to h.
+/// Cotangent of the angle opposite to h in the seamless map.
 double IntegerMap::cotangentOpposite(Index h) const
 {
-  const Vector2 a = wanted_[Mesh::previous(h)], b = -wanted_[Mesh::next(h)];
+  const Vector2 a = seamless(Mesh::previous(h)), b = -seamless(Mesh::next(h));
   return a.dot(b) / (a.x() * b.y() - a.y() * b.x());
 }
 
@@ -165,7 +166,7 @@ void IntegerMap::weigh(Index h)
   double sum = here + (g == kInvalidIndex ? here : cotangentOpposite(g));
   // A triangle that was flipped for the sake of the integers may be degenerate in the seamless map.
   sum = std::isfinite(sum) ? sum : 0;
-  weight_[h] = std::clamp(sum, 0.1, 4.0) / std::max(wanted_[h].norm(), 0.25);
+  weight_[h] = std::clamp(sum, 0.1, 4.0) / std::max(seamless(h).norm(), 0.25);
   if (g != kInvalidIndex)
   {
     weight_[g] = weight_[h];
@@ -428,6 +429,8 @@ void IntegerMap::flip(Index h)
   editor_.flip(h);
   loop_[h] = std::exchange(loop_[gn], kInvalidIndex);
   loop_[g] = std::exchange(loop_[hn], kInvalidIndex);
+  shares_[h] = std::exchange(shares_[gn], 1.0);
+  shares_[g] = std::exchange(shares_[hn], 1.0);
   q_[h] = toD;
   q_[g] = toC;
   q_[hn] = -(toD + q_[hp]);

@@ -32,8 +32,10 @@ constexpr std::int64_t kGrain = 16;
 class IntegerMap
 {
 public:
-  /// integerVertex: #V; the vertices that have to lie at whole points.
-  IntegerMap(UvMesh& mesh, UvEditor& editor, const std::vector<std::uint8_t>& integerVertex);
+  /// integerVertex: #V; the vertices that have to lie at whole points. shares: #H or empty; how many times its length in
+  /// the seamless map is wanted for a half-edge.
+  IntegerMap(UvMesh& mesh, UvEditor& editor, const std::vector<std::uint8_t>& integerVertex,
+    std::vector<double> shares = {});
 
   const UvMesh& mesh() const { return mesh_; }
   /// The faces that are alive, ascending.
@@ -134,6 +136,7 @@ private:
   }
   void measure(Index h);
   void weigh(Index h);
+  Vector2 seamless(Index h) const { return toDouble(mesh_.vector(h)); }
   double cotangentOpposite(Index h) const;
   bool wantsFlip(Index h) const;
   bool hasCornerToSpare(Index h) const;
@@ -153,6 +156,7 @@ private:
   std::vector<Index> freeVertices_;
   std::vector<FixedVec2> q_;    ///< #H
   std::vector<Axis> axis_;      ///< #H
+  std::vector<double> shares_;  ///< #H, of their lengths in the seamless map
   std::vector<Vector2> wanted_; ///< #H, in quads
   std::vector<double> weight_;  ///< #H; the same on both sides
   std::vector<int> turns_;      ///< #V; quarter turns in the seamless map

@@ -8,9 +8,11 @@
 
 #include "Base/TryCount.h"
 #include "Integers/CurveIsolines.h"
+#include "Integers/CurveShares.h"
 #include "Integers/LockedVertices.h"
 #include "Integers/QuantizeIntegers.h"
 #include "Integers/UvDecimation.h"
+#include "Mesh/Sizing.h"
 #include "Requests/SeamRequests.h"
 
 #include <algorithm>
@@ -296,7 +298,9 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
       "quantization: the two sides of the cut have not the same corners and ends of features" };
     return result;
   }
-  IntegerMap integers(uvMesh, editor, locked.integer);
+  const double edgeLength = std::sqrt(sizedArea(mesh) / wantedArea);
+  IntegerMap integers(
+    uvMesh, editor, locked.integer, sharesOfCurves(mesh, field, seamlessUv, edgeLength, uvMesh));
   IntegerStart start;
   if (options.previousUv != nullptr)
   {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Base/Angles.h"
 #include "Base/Error.h"
 #include "GridMap/Embed.h"
 #include "GridMap/GridMap.h"
@@ -429,6 +430,29 @@ TEST(GridMap, AUniformStretchChangesNothing)
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     EXPECT_LT(toDouble(stretched.uv[h] - flat.uv[h]).norm(), 1e-6);
+  }
+}
+
+/// A circle of six quads would be a hexagon, and is one where it is rounded to the nearest whole number.
+TEST(GridMap, SmallCirclesGetMoreEdges)
+{
+  struct Tube
+  {
+    double radius, least, most;
+  };
+  for (const Tube& circle : { Tube{ 1, 9, 11 }, Tube{ 1.5, 11, 13 }, Tube{ 4, 24, 26 } })
+  {
+    const Mesh mesh = test::openCylinder(24, 12, circle.radius, 6);
+    GridMapOptions options;
+    options.edgeLength = 1;
+    options.targetQuads = 2 * kPi * circle.radius * 6;
+    const GridMapResult result = computeGridMap(mesh, options);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    for (const double edges : loopLengths(mesh, result.uv))
+    {
+      EXPECT_GE(edges, circle.least) << circle.radius;
+      EXPECT_LE(edges, circle.most) << circle.radius;
+    }
   }
 }
 
