@@ -32,7 +32,7 @@ constexpr std::int64_t kGrain = 16;
 class IntegerMap
 {
 public:
-  /// integerVertex: #V; the vertices that have to lie at whole points. shares: #H or empty; how many times its length in
+  /// integerVertex: #V; the vertices that have to lie at whole points. shares: #H or empty; so many times its length in
   /// the seamless map is wanted for a half-edge.
   IntegerMap(UvMesh& mesh, UvEditor& editor, const std::vector<std::uint8_t>& integerVertex,
     std::vector<double> shares = {});
