@@ -494,6 +494,7 @@ private:
     QuantizeOptions quantizeOptions;
     quantizeOptions.watched = watched;
     quantizeOptions.pull = options_.pull;
+    quantizeOptions.edgeLength = options_.edgeLength;
     quantizeOptions.previousUv = knownIntegers(component);
     quantizeOptions.anew = !component.hasIntegers;
     quantizeOptions.progress = progress;

@@ -12,7 +12,6 @@
 #include "Integers/LockedVertices.h"
 #include "Integers/QuantizeIntegers.h"
 #include "Integers/UvDecimation.h"
-#include "Mesh/Sizing.h"
 #include "Requests/SeamRequests.h"
 
 #include <algorithm>
@@ -298,9 +297,9 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
       "quantization: the two sides of the cut have not the same corners and ends of features" };
     return result;
   }
-  const double edgeLength = std::sqrt(sizedArea(mesh) / wantedArea);
-  IntegerMap integers(
-    uvMesh, editor, locked.integer, sharesOfCurves(mesh, field, seamlessUv, edgeLength, uvMesh));
+  IntegerMap integers(uvMesh, editor, locked.integer,
+    options.edgeLength > 0 ? sharesOfCurves(mesh, field, seamlessUv, options.edgeLength, uvMesh)
+                           : std::vector<double>{});
   IntegerStart start;
   if (options.previousUv != nullptr)
   {

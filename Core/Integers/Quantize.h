@@ -19,6 +19,8 @@ struct QuantizeOptions
   double maximumRefinement = 8; ///< the integers may grow by this factor when nothing else is valid
   /// In [0, 1]: the integers come near to so many times the seamless map. 0: as near to nothing as a valid map can.
   double pull = 1;
+  /// s, in units of the mesh: how far edges may leave curves follows it, see sharesOfCurves. 0: they do not count.
+  double edgeLength = 0;
   /// Vertices, as EmbedResult::failedAt, whose triangles the integers must leave positive as they are.
   std::vector<Index> watched;
   /// #H: an integer-grid map along the same field, or null. Its integers are the start where they are valid, or can be

@@ -428,12 +428,13 @@ TEST(Symmetry, RefusesWhatIsNoPlane)
 
 TEST(Symmetry, ATubeThatIsOneQuadWideGetsMore)
 {
-  // Half of it is 0.31 wide, as long as a quad asked for: an edge across would be its own image.
-  const SurfaceInput input = toInput(openCylinder(48, 40, 0.1, 4));
-  const SymmetricResult made =
-    remeshSymmetric(input, aboutQuads(24), about({ 0, 0, 0 }, { 1, 0, 0 }));
-  expectSymmetric(made, input, 0, false);
-  EXPECT_GT(made.remeshed.quads.quads.size(), 40U);
+  // Half of it is 0.16 wide, as long as a quad asked for: an edge across would be its own image.
+  const SurfaceInput input = toInput(torus(160, 24, 1, 0.05));
+  RemeshOptions options = aboutQuads(80);
+  options.smallDetails = SmallDetails::Keep;
+  const SymmetricResult made = remeshSymmetric(input, options, about({ 0, 0, 0 }, { 0, 0, 1 }));
+  expectSymmetric(made, input, 0, true);
+  EXPECT_GT(made.remeshed.quads.quads.size(), 130U);
   EXPECT_TRUE(hasNotice(made, "one quad wide"));
 }
 
