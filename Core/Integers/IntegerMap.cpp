@@ -17,7 +17,7 @@ namespace
 /// Cocircular points, which whole displacements make often, must not flip forever.
 constexpr double kDelaunaySlack = -1e-9;
 
-double angleBetween(const Vector2& a, const Vector2& b)
+double orientedAngle(const Vector2& a, const Vector2& b)
 {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
@@ -519,7 +519,7 @@ std::vector<int> IntegerMap::windings(VectorOf vectorOf) const
   {
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
-      angle[mesh_.origin[h]] += angleBetween(vectorOf(h), -vectorOf(Mesh::previous(h)));
+      angle[mesh_.origin[h]] += orientedAngle(vectorOf(h), -vectorOf(Mesh::previous(h)));
     }
   }
   std::vector<int> turns(angle.size());
