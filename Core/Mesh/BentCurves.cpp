@@ -17,7 +17,7 @@ namespace
 
 /// By how much of s the middle of an edge may leave its curve.
 constexpr double kMostSag = 0.05;
-/// A polygon of six edges or fewer is one; with more it is a circle.
+/// A polygon of five edges or fewer is one; with more it is a circle.
 constexpr double kPolygonCorner = radians(60);
 /// Bends are those between chords of about so much of s, so that steps to and fro within it are none.
 constexpr double kChord = 0.5;
