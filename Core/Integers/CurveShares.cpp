@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Integers/CurveShares.h"
 
+#include "Integers/IntegerMap.h"
 #include "Mesh/BentCurves.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <map>
 #include <tuple>
 
@@ -15,11 +16,6 @@ namespace quadrille
 {
 namespace
 {
-
-std::int64_t lengthAlongAxis(FixedVec2 d)
-{
-  return std::abs(d.u) + std::abs(d.v);
-}
 
 /// #V: the map has no corner there.
 std::vector<std::uint8_t> smoothVertices(const Mesh& mesh, const CrossField& field)
@@ -39,13 +35,10 @@ std::vector<std::uint8_t> smoothVertices(const Mesh& mesh, const CrossField& fie
 std::vector<std::vector<Index>> curveEdgesAt(const Mesh& mesh)
 {
   std::vector<std::vector<Index>> edges(mesh.vertexCount());
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  for (const Index h : constrainedEdges(mesh))
   {
-    if (mesh.isConstrained(h) && (mesh.isBoundary(h) || h < mesh.twin[h]))
-    {
-      edges[mesh.origin[h]].push_back(h);
-      edges[mesh.target(h)].push_back(h);
-    }
+    edges[mesh.origin[h]].push_back(h);
+    edges[mesh.target(h)].push_back(h);
   }
   return edges;
 }
@@ -73,7 +66,7 @@ std::vector<double> sharesOfCurves(const Mesh& mesh, const CrossField& field,
       {
         length += sizedLength(mesh, edge) / edgeLength;
         asked += quads[edge];
-        inMap += lengthAlongAxis(seamlessUv[Mesh::next(edge)] - seamlessUv[edge]);
+        inMap += IntegerMap::lengthOf(seamlessUv[Mesh::next(edge)] - seamlessUv[edge]);
         at = mesh.otherEnd(edge, at);
         if (isLeft(at) || edges[at].size() != 2)
         {
@@ -94,7 +87,7 @@ std::vector<double> sharesOfCurves(const Mesh& mesh, const CrossField& field,
     if (isCurve)
     {
       const auto found = shareOf.find(
-        { decimated.origin[h], decimated.target(h), lengthAlongAxis(decimated.vector(h)) });
+        { decimated.origin[h], decimated.target(h), IntegerMap::lengthOf(decimated.vector(h)) });
       shares[h] = found == shareOf.end() ? 1.0 : found->second;
     }
   }

@@ -5,6 +5,7 @@
 #include "Base/Angles.h"
 #include "Base/Progress.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <array>
@@ -30,14 +31,10 @@ public:
     : mesh_(mesh), edges_(mesh.vertexCount(), { kInvalidIndex, kInvalidIndex }),
       passes_(mesh.vertexCount(), 0)
   {
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    for (const Index h : constrainedEdges(mesh))
     {
-      pollNowAndThen(h);
-      if (mesh.isConstrained(h) && (mesh.isBoundary(h) || h < mesh.twin[h]))
-      {
-        add(mesh.origin[h], h);
-        add(mesh.target(h), h);
-      }
+      add(mesh.origin[h], h);
+      add(mesh.target(h), h);
     }
     for (Index v = 0; v < mesh.vertexCount(); ++v)
     {
