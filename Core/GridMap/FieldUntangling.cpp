@@ -28,6 +28,8 @@ constexpr double kStiffening = 10;
 /// either.
 constexpr int kIdleRounds = 2;
 constexpr int kRequestSteps = 30;
+/// A valid map has converged where a step lessens its energy by a smaller share.
+constexpr double kLeastGain = 0.01;
 /// Of guides against the energy that the map has anyway.
 constexpr double kGuideWeight = 30;
 /// Of the way from 1 to the limit, where the penalty begins: it is zero there and small at first, so that triangles
@@ -65,7 +67,10 @@ UntangleOptions fieldUntangleOptions(const ProgressCallback& progress)
   options.alignmentWeight = 1;
   // Equations without constants let a map shrink to a point; the area term keeps it from that.
   options.areaWeight = 1;
+  // Most maps have converged by then. One whose vertices came back to slivers, as along features without a corner, is
+  // positive but far from its minimum: its quads would be longer than wide by hundreds.
   options.polishSteps = 4;
+  options.leastGain = kLeastGain;
   options.maximumSteps = kMostNewtonSteps;
   options.progress = progress;
   return options;

@@ -271,7 +271,7 @@ UntangleResult Minimizer::run()
   double gain = 0;
   while (result.steps < options_.maximumSteps && system_.unknowns() > 0)
   {
-    if (valid() && polished++ >= options_.polishSteps)
+    if (valid() && polished++ >= options_.polishSteps && gain < options_.leastGain)
     {
       break;
     }

@@ -281,6 +281,32 @@ TEST(Untangler, ALimitIsLookedAtOnceTheMapIsValid)
   }
 }
 
+TEST(Untangler, GoesOnWhereAFewStepsLeaveAPositiveMapFarFromItsMinimum)
+{
+  // All points are pressed to the left side: rows of slivers, each positive.
+  constexpr int kCells = 20;
+  const Square square(kCells);
+  Eigen::VectorXd start = square.inside;
+  for (Eigen::Index i = 0; i < start.size(); i += 2)
+  {
+    start[i] = kCells * std::pow(start[i] / kCells, 6);
+  }
+  const auto deviation = [&](const UntangleResult& result)
+  { return (result.y - square.inside).cwiseAbs().maxCoeff(); };
+  UntangleOptions options;
+  options.areaWeight = 1;
+  options.polishSteps = 4;
+  const UntangleResult few = untangle(square.problem, start, options);
+  options.leastGain = 0.01;
+  const UntangleResult all = untangle(square.problem, start, options);
+  EXPECT_TRUE(few.inverted.empty() && all.inverted.empty());
+  EXPECT_LT(few.steps, 7);
+  EXPECT_GT(deviation(few), 1);
+  EXPECT_LT(deviation(all), 0.2);
+  // Near the minimum it takes no more.
+  EXPECT_LE(untangle(square.problem, all.y, options).steps, 4);
+}
+
 TEST(Untangler, RefusesALimitThatIsNone)
 {
   const Square square(3);
