@@ -541,8 +541,8 @@ std::vector<ClearedFeature> clearFeatures(
 std::string inEdgeLengths(double length)
 {
   std::ostringstream text;
-  text.precision(length < 10 ? 2 : 3);
-  text << length;
+  text.precision(length < 10 ? 2 : length < 1000 ? 3 : 6);
+  text << (length < 1000 ? length : std::round(length));
   return text.str();
 }
 

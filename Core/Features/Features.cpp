@@ -8,8 +8,8 @@
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Features/Creases.h"
+#include "Features/FaceNormals.h"
 #include "Features/FeatureFilter.h"
-#include "Mesh/PointSets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,14 +24,6 @@ namespace
 /// Faces, whose normals fit a second level cache.
 constexpr std::size_t kFeatureChunk = 16384;
 
-/// Coordinates often come as float, even where they are double now: below this height over the size of the surface a
-/// face's normal can be off by degrees.
-constexpr double kReliableHeight = 1e-6;
-/// The same over the precision of the coordinates, where that is worse.
-constexpr double kReliableSteps = 16;
-
-constexpr int kMostSliversInARow = 16;
-
 /// Faces whose normals differ by less lie in one plane: a degree over ten is far below what noise does to triangles of
 /// a scan, and far above what rounding to single precision does to those that count.
 const double kOnePlane = std::cos(radians(0.1));
@@ -40,77 +32,6 @@ constexpr double kPlane = 0.005;
 /// The part of the area in such planes from which on a surface is designed: printed parts have 0.24 to 0.95, scans 0 to
 /// 0.04.
 constexpr double kDesigned = 0.1;
-
-struct FaceNormal
-{
-  Vector3 direction; ///< unit
-  bool isReliable;
-};
-
-/// Normals, computed when they are asked for: an array of them would be the largest of all.
-class FaceNormals
-{
-public:
-  FaceNormals(const Mesh& mesh, double precision, int threads) : mesh_(mesh)
-  {
-    const PointBox box = boxOfPoints(mesh.position, threads);
-    height_ = std::max(kReliableHeight * (box.high - box.low).norm(), kReliableSteps * precision);
-  }
-
-  FaceNormal of(Index f) const
-  {
-    const Vector3& p = mesh_.position[mesh_.origin[3 * f]];
-    const Vector3& q = mesh_.position[mesh_.origin[3 * f + 1]];
-    const Vector3& r = mesh_.position[mesh_.origin[3 * f + 2]];
-    const Vector3 a = q - p, b = r - q, c = p - r;
-    const Vector3 n = a.cross(b);
-    const double doubleArea = n.norm();
-    const double longest =
-      std::sqrt(std::max({ a.squaredNorm(), b.squaredNorm(), c.squaredNorm() }));
-    return { n / doubleArea, doubleArea > height_ * longest };
-  }
-
-private:
-  const Mesh& mesh_;
-  double height_;
-};
-
-/// Half-edges of a face, longest first.
-std::array<Index, 3> byLength(const Mesh& mesh, Index f)
-{
-  std::array<Index, 3> edges{ 3 * f, 3 * f + 1, 3 * f + 2 };
-  std::stable_sort(edges.begin(), edges.end(),
-    [&mesh](Index a, Index b)
-    { return mesh.edgeVector(a).squaredNorm() > mesh.edgeVector(b).squaredNorm(); });
-  return edges;
-}
-
-/// The face whose normal stands for that of a sliver f: beyond the longest edges of slivers, and never back.
-Index beyondSlivers(const Mesh& mesh, const FaceNormals& normals, Index f)
-{
-  Index previous = kInvalidIndex;
-  Index current = f;
-  for (int step = 0; step < kMostSliversInARow && !normals.of(current).isReliable; ++step)
-  {
-    const std::array<Index, 3> edges = byLength(mesh, current);
-    const auto leadsOn = [&](Index h)
-    { return !mesh.isBoundary(h) && Mesh::face(mesh.twin[h]) != previous; };
-    const auto way = std::find_if(edges.begin(), edges.end(), leadsOn);
-    if (way == edges.end())
-    {
-      break;
-    }
-    previous = current;
-    current = Mesh::face(mesh.twin[*way]);
-  }
-  return current;
-}
-
-Vector3 normalOf(const Mesh& mesh, const FaceNormals& normals, Index f)
-{
-  const FaceNormal own = normals.of(f);
-  return own.isReliable ? own.direction : normals.of(beyondSlivers(mesh, normals, f)).direction;
-}
 
 void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int threads)
 {
@@ -122,7 +43,7 @@ void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int th
       std::vector<Vector3> known(end - begin); // faces next to each other are mostly in one chunk
       for (std::size_t f = begin; f < end; ++f)
       {
-        known[f - begin] = normalOf(mesh, normals, static_cast<Index>(f));
+        known[f - begin] = normals.of(static_cast<Index>(f));
       }
       for (Index h = static_cast<Index>(3 * begin); h < 3 * end; ++h)
       {
@@ -133,7 +54,7 @@ void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int th
         }
         const Index beyond = Mesh::face(twin);
         const double cosine = known[Mesh::face(h) - begin].dot(
-          beyond < end ? known[beyond - begin] : normalOf(mesh, normals, beyond));
+          beyond < end ? known[beyond - begin] : normals.of(beyond));
         if (cosine < limit)
         {
           flags[h] |= kFeatureEdge;
@@ -152,11 +73,11 @@ std::vector<Index> edgesInPlanes(const Mesh& mesh, const FaceNormals& normals, i
     {
       for (auto f = static_cast<Index>(begin); f < end; ++f)
       {
-        const Vector3 normal = normalOf(mesh, normals, f);
+        const Vector3 normal = normals.of(f);
         for (Index h = 3 * f; h < 3 * f + 3; ++h)
         {
           if (!mesh.isBoundary(h) && h < mesh.twin[h] &&
-            normal.dot(normalOf(mesh, normals, Mesh::face(mesh.twin[h]))) > kOnePlane)
+            normal.dot(normals.of(Mesh::face(mesh.twin[h]))) > kOnePlane)
           {
             found[f / kFeatureChunk].push_back(h);
           }
@@ -211,7 +132,7 @@ std::vector<Vector3> normalsBeside(
   result.reserve(halfEdges.size());
   for (const Index h : halfEdges)
   {
-    result.push_back(normalOf(mesh, normals, Mesh::face(h)));
+    result.push_back(normals.of(Mesh::face(h)));
   }
   return result;
 }
@@ -222,8 +143,7 @@ FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision)
   markSharpEdges(mesh, normals, angle, threads);
   const auto angleOf = [&](Index h)
   {
-    const double cosine =
-      normalOf(mesh, normals, Mesh::face(h)).dot(normalOf(mesh, normals, Mesh::face(mesh.twin[h])));
+    const double cosine = normals.of(Mesh::face(h)).dot(normals.of(Mesh::face(mesh.twin[h])));
     return std::acos(std::clamp(cosine, -1.0, 1.0));
   };
   FacetReport report;

@@ -4,96 +4,11 @@
 
 #include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Features/EdgeCurves.h"
 #include "Mesh/Sizing.h"
-
-#include <unordered_map>
 
 namespace quadrille
 {
-namespace
-{
-
-/// Lost features and what is left of the network, at the vertices of the lost ones.
-class LostNetwork
-{
-public:
-  LostNetwork(const Mesh& mesh, const std::vector<Index>& halfEdges)
-  {
-    for (const Index h : halfEdges)
-    {
-      at_[mesh.origin[h]].lost.push_back(h);
-      at_[mesh.target(h)].lost.push_back(h);
-    }
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-    {
-      pollNowAndThen(h);
-      if (mesh.isConstrained(h))
-      {
-        markEnd(mesh.origin[h]);
-        markEnd(mesh.target(h));
-      }
-    }
-  }
-
-  /// The lost edge beyond v of the same curve; kInvalidIndex where it ends.
-  Index onwards(Index h, Index v) const
-  {
-    const Meeting& meeting = at_.at(v);
-    if (meeting.onNetwork || meeting.lost.size() != 2)
-    {
-      return kInvalidIndex;
-    }
-    return meeting.lost[0] == h ? meeting.lost[1] : meeting.lost[0];
-  }
-
-private:
-  struct Meeting
-  {
-    std::vector<Index> lost;
-    bool onNetwork = false; ///< a feature or boundary that stayed passes here
-  };
-
-  void markEnd(Index v)
-  {
-    const auto found = at_.find(v);
-    if (found != at_.end())
-    {
-      found->second.onNetwork = true;
-    }
-  }
-
-  std::unordered_map<Index, Meeting> at_; // only looked up, so its order does not matter
-};
-
-/// The edges of the curve through `seed`, in their order.
-std::vector<Index> lostCurve(
-  const Mesh& mesh, const LostNetwork& network, Index seed, std::unordered_map<Index, bool>& done)
-{
-  std::vector<Index> ways[2];
-  for (int side = 0; side < 2; ++side)
-  {
-    Index h = seed;
-    Index v = side == 0 ? mesh.origin[seed] : mesh.target(seed);
-    while (true)
-    {
-      const Index next = network.onwards(h, v);
-      if (next == kInvalidIndex || done[next])
-      {
-        break;
-      }
-      done[next] = true;
-      ways[side].push_back(next);
-      v = mesh.otherEnd(next, v);
-      h = next;
-    }
-  }
-  std::vector<Index> curve(ways[0].rbegin(), ways[0].rend());
-  curve.push_back(seed);
-  curve.insert(curve.end(), ways[1].begin(), ways[1].end());
-  return curve;
-}
-
-} // namespace
 
 const char* nameOf(FeatureLoss reason)
 {
@@ -137,20 +52,8 @@ std::vector<GivenUpCurve> givenUpCurves(
     throw InvalidInput("the edge length for telling of features must be positive");
   }
   std::vector<GivenUpCurve> curves;
-  if (halfEdges.empty())
+  for (const std::vector<Index>& edges : curvesOfEdges(mesh, halfEdges))
   {
-    return curves;
-  }
-  const LostNetwork network(mesh, halfEdges);
-  std::unordered_map<Index, bool> done;
-  for (const Index seed : halfEdges)
-  {
-    if (done[seed])
-    {
-      continue;
-    }
-    done[seed] = true;
-    const std::vector<Index> edges = lostCurve(mesh, network, seed, done);
     GivenUpCurve curve;
     curve.reason = reason;
     curve.edges = edges.size();

@@ -8,6 +8,7 @@
 #include "Base/Progress.h"
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
+#include "Features/Fillets.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/DrawnOnSurface.h"
@@ -184,6 +185,24 @@ void filterFeatures(PreparedSurface& surface, const RemeshOptions& options, Size
   tell({ featureNotice(filtered), creases.text() }, sized.notices);
 }
 
+/// Where a designed body is sharp at the scale of the quads, they have an edge, too. Short ends of such lines go as those
+/// of sharp edges do.
+void followFillets(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
+{
+  if (!options.featureAngle || !judgesCreases(options) || !surface.facets.isDesigned)
+  {
+    return;
+  }
+  Mesh& mesh = surface.mesh;
+  const std::vector<Index> fillets =
+    markFillets(mesh, *options.featureAngle, sized.edgeLength, options.threads);
+  if (!fillets.empty())
+  {
+    removeUnresolvedFeatures(mesh, options.smallestDetail * sized.edgeLength, options.threads);
+    tell({ filletNotice(mesh, fillets, sized.edgeLength) }, sized.notices);
+  }
+}
+
 /// Without small components and features that quads cannot resolve, in triangles no larger than quads.
 void refine(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
 {
@@ -192,6 +211,7 @@ void refine(PreparedSurface& surface, const RemeshOptions& options, SizedSurface
   tell({ dropSmallComponents(surface, options, sized) }, sized.notices);
   tell({ surface.facets.text() }, sized.notices);
   filterFeatures(surface, options, sized);
+  followFillets(surface, options, sized);
   refineSurface(surface, sized.edgeLength, subProgress(options.progress, 0.1, 0.15, "Refining: "),
     options.threads);
   sized.stages.add("refine", secondsNow() - start, before, surface.mesh.faceCount());
