@@ -105,6 +105,8 @@ struct FacetReport
 {
   /// Whether the surface is one of designed bodies, all of whose sharp edges are creases.
   bool isDesigned = false;
+  /// Whether it is made of the faces of cells, see isMadeOfCells.
+  bool isOfCells = false;
   std::size_t edges = 0;
   Vector3 place = Vector3::Zero(); ///< of one of them
 

@@ -5,6 +5,7 @@
 #include "Pieces/RemeshInPieces.h"
 #include "Pieces/SurfacePiece.h"
 #include "Pieces/ThinnedSurface.h"
+#include "Pipeline/DropSteps.h"
 #include "Pipeline/EnterFrame.h"
 #include "Pipeline/Run.h"
 #include "Pipeline/RunResult.h"
@@ -28,6 +29,8 @@ ThinnedSurface thinOut(SurfaceInput& input, RemeshOptions& options, SizedSurface
   PieceOptions piece = pieceOptionsOf(options, fine.area, fine.boundingBoxDiagonal);
   piece.threads = options.threads;
   piece.progress = subProgress(options.progress, 0.25, 0.6, "Thinning: ");
+  sized.edgeLength = piece.quadEdge;
+  dropSteps(fine, options, sized); // thinned, it is made of cells no more
   ThinnedSurface thinned(std::move(fine), piece);
   sized.stages.add("thin", watch.lap(), faces, thinned.faceCount());
   return thinned;

@@ -8,6 +8,7 @@
 #include "Base/Progress.h"
 #include "Pipeline/Attempt.h"
 #include "Pipeline/Division.h"
+#include "Pipeline/DropSteps.h"
 #include "Pipeline/EnterFrame.h"
 #include "Pipeline/FaceDivision.h"
 #include "Pipeline/FirstPlan.h"
@@ -475,6 +476,10 @@ RemeshResult remeshInput(
 void remeshSized(SizedSurface& sized, const Frame& frame, const RemeshOptions& options,
   ResultStore* store, bool quadsAlone, RemeshResult& result)
 {
+  if (sized.status.ok())
+  {
+    dropSteps(sized, options);
+  }
   takeSized(sized, result);
   if (!result.status.ok())
   {

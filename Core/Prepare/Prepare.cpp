@@ -14,6 +14,7 @@
 #include "Mesh/Sizing.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/Triangulate.h"
+#include "Prepare/CellFaces.h"
 #include "Prepare/DegenerateFaces.h"
 #include "Prepare/Repair.h"
 #include "Requests/Guides.h"
@@ -72,6 +73,7 @@ void markFeatures(
   {
     surface.facets =
       markCreases(surface.mesh, *options.featureAngle, options.threads, input.precision);
+    surface.facets.isOfCells = isMadeOfCells(surface.mesh);
   }
   if (!input.patchIds.empty() || !input.featureEdges.empty())
   {
