@@ -111,9 +111,9 @@ struct Section
     const bool goesLeft = onLeft > onRight;
     const double half = turn() / 2 - bend - std::min(onLeft, onRight);
     const std::vector<Crossing>& crossings = (goesLeft ? left : right).crossings;
-    return std::find_if(crossings.begin(), crossings.end(),
-      [&](const Crossing& crossing) { return sense * crossing.turn >= half; })
-      ->edge;
+    const auto found = std::find_if(crossings.begin(), crossings.end(),
+      [&](const Crossing& crossing) { return sense * crossing.turn >= half; });
+    return found == crossings.end() ? edge : found->edge;
   }
 };
 

@@ -185,8 +185,8 @@ void filterFeatures(PreparedSurface& surface, const RemeshOptions& options, Size
   tell({ featureNotice(filtered), creases.text() }, sized.notices);
 }
 
-/// Where a designed body is sharp at the scale of the quads, they have an edge, too. Short ends of such lines go as those
-/// of sharp edges do.
+/// Where a designed body is sharp at the scale of the quads, they have an edge, too. Short ends of such lines go as
+/// those of sharp edges do.
 void followFillets(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
 {
   if (!options.featureAngle || !judgesCreases(options) || !surface.facets.isDesigned)
