@@ -27,10 +27,10 @@ namespace
 {
 
 /// Edges that a walk crosses; one that goes on round slivers is none.
-constexpr std::size_t kMostCrossings = 10000;
+constexpr std::size_t kMostCrossedEdges = 10000;
 
 /// Of an edge length: how far from its middle line a fillet ends. Wider ones have room for quads of their own.
-constexpr double kHalfWidth = 0.35;
+constexpr double kHalfFillet = 0.35;
 /// The surface is looked at as far as this times that, and turns there by so much more than within it at most.
 constexpr double kBeyond = 2;
 constexpr double kMostBeyond = 1.25;
@@ -41,7 +41,7 @@ constexpr double kLeastPart = 0.5;
 /// Of that distance: edges nearer to each other, and along each other, lie in one section.
 constexpr double kBeside = 0.125;
 /// Cosine of the angle between edges that are along each other.
-constexpr double kAlong = 0.9;
+constexpr double kParallelCosine = 0.9;
 /// In edge lengths: what is shorter is the corner between fillets.
 constexpr double kLeastLength = 2;
 /// Edges that bend by this part of one beside them are the diagonals of a strip.
@@ -141,7 +141,7 @@ public:
     section.edge = h;
     section.bend = std::abs(bend);
     section.sense = bend > 0 ? 1 : -1;
-    section.width = kHalfWidth * edgeLength_ * sizeAt(mesh_, mesh_.origin[h]);
+    section.width = kHalfFillet * edgeLength_ * sizeAt(mesh_, mesh_.origin[h]);
     section.left = across(h, kBeyond * section.width);
     section.right = across(mesh_.twin[h], kBeyond * section.width);
     section.onLeft = section.left.turnWithin(kBeyond * section.width, section.sense);
@@ -203,7 +203,7 @@ private:
         side.isOpen = walked > distance / kBeyond;
         return side;
       }
-      if (side.crossings.size() == kMostCrossings)
+      if (side.crossings.size() == kMostCrossedEdges)
       {
         side.isOpen = false;
         return side;
@@ -388,7 +388,7 @@ private:
       }
       const Vector3 edge = mesh_.edgeVector(crossing.edge);
       if (crossing.edge != middle && known_[crossing.edge] == kUnknown &&
-        std::abs(edge.dot(along)) > kAlong * edge.norm() &&
+        std::abs(edge.dot(along)) > kParallelCosine * edge.norm() &&
         section.sense * finder_.bendAt(crossing.edge) > 0)
       {
         known_[crossing.edge] = kPassed;
