@@ -3,6 +3,7 @@
 /// Normals of faces by which features are judged.
 #pragma once
 
+#include "Base/Angles.h"
 #include "Mesh/Mesh.h"
 
 #include <algorithm>
@@ -10,6 +11,10 @@
 
 namespace quadrille
 {
+
+/// Faces whose normals differ by less lie in one plane: a degree over ten is far below what noise does to triangles of
+/// a scan, and far above what rounding to single precision does to those that count. Radians.
+constexpr double kOnePlane = radians(0.1);
 
 /// Normals, computed when they are asked for: an array of them would be the largest of all. Those of slivers are
 /// rounding noise; the face beyond their longest edge stands for them.

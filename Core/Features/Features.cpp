@@ -24,9 +24,6 @@ namespace
 /// Faces, whose normals fit a second level cache.
 constexpr std::size_t kFeatureChunk = 16384;
 
-/// Faces whose normals differ by less lie in one plane: a degree over ten is far below what noise does to triangles of
-/// a scan, and far above what rounding to single precision does to those that count.
-const double kOnePlane = std::cos(radians(0.1));
 /// A plane counts from this part of the area on: facets of a coarse sampling, which may lie in one plane, are smaller.
 constexpr double kPlane = 0.005;
 /// The part of the area in such planes from which on a surface is designed: printed parts have 0.24 to 0.95, scans 0 to
@@ -67,6 +64,7 @@ void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int th
 /// One half-edge of each edge between two faces in one plane.
 std::vector<Index> edgesInPlanes(const Mesh& mesh, const FaceNormals& normals, int threads)
 {
+  const double least = std::cos(kOnePlane);
   std::vector<std::vector<Index>> found((mesh.faceCount() + kFeatureChunk - 1) / kFeatureChunk);
   parallelFor(mesh.faceCount(), kFeatureChunk, threads,
     [&](std::size_t begin, std::size_t end)
@@ -77,7 +75,7 @@ std::vector<Index> edgesInPlanes(const Mesh& mesh, const FaceNormals& normals, i
         for (Index h = 3 * f; h < 3 * f + 3; ++h)
         {
           if (!mesh.isBoundary(h) && h < mesh.twin[h] &&
-            normal.dot(normals.of(Mesh::face(mesh.twin[h]))) > kOnePlane)
+            normal.dot(normals.of(Mesh::face(mesh.twin[h]))) > least)
           {
             found[f / kFeatureChunk].push_back(h);
           }

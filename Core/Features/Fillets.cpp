@@ -34,8 +34,6 @@ constexpr double kHalfFillet = 0.35;
 /// The surface is looked at as far as this times that, and turns there by so much more than within it at most.
 constexpr double kBeyond = 2;
 constexpr double kMostBeyond = 1.25;
-/// Between faces that bend by less there is no line.
-const double kLeastBend = radians(0.1);
 /// A single edge of a curve may bend the surface by this part of what the curve has to on average.
 constexpr double kLeastPart = 0.5;
 /// Of that distance: edges nearer to each other, and along each other, lie in one section.
@@ -334,7 +332,7 @@ private:
     kLookedAt ///< by a walk of its own
   };
 
-  bool bends(Index h) const { return std::abs(finder_.bendAt(h)) > kLeastBend; }
+  bool bends(Index h) const { return std::abs(finder_.bendAt(h)) > kOnePlane; }
 
   void searchFrom(Index h)
   {

@@ -7,6 +7,7 @@
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/Topology.h"
 #include "Pipeline/ResultStore.h"
 
 #include <cmath>
@@ -67,12 +68,9 @@ void letVerticesGo(PreparedSurface& surface)
 {
   const Mesh& mesh = surface.mesh;
   std::vector<std::uint8_t> isOnCurve(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  for (const Index h : constrainedEdges(mesh))
   {
-    if (mesh.isConstrained(h))
-    {
-      isOnCurve[mesh.origin[h]] = isOnCurve[mesh.target(h)] = 1;
-    }
+    isOnCurve[mesh.origin[h]] = isOnCurve[mesh.target(h)] = 1;
   }
   eraseIf(surface.sectorRequests,
     [&](const SectorRequest& request) { return isOnCurve[request.vertex] == 0; });
@@ -128,6 +126,10 @@ bool dropSteps(PreparedSurface& surface, const RemeshOptions& options, SizeRepor
 
 void dropSteps(SizedSurface& sized, const RemeshOptions& options)
 {
+  if (!sized.surface->facets.isOfCells)
+  {
+    return; // and no copy of the surface is made, which other runs have no use for
+  }
   PreparedSurface changed = *sized.surface;
   if (!dropSteps(changed, options, sized))
   {
