@@ -8,17 +8,16 @@
 #include "Base/Refuse.h"
 #include "GridMap/MapCheck.h"
 #include "GridMap/RelaxedTriangles.h"
-#include "Numerics/NestedSolver.h"
+#include "Numerics/ReducedTriangles.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace quadrille
 {
@@ -28,12 +27,15 @@ namespace
 /// Where no such step lowers the energy, crushed triangles keep all others from moving: then none of them may rise by
 /// more than this factor, less and less the shorter the step.
 constexpr double kMostRise = 10;
+/// Of the matrix of a step, over the mean of its diagonal.
+constexpr double kRegularization = 1e-9;
 /// How often the whole step is halved before the descent ends.
 constexpr int kBacktracking = 6;
 constexpr int kLocalSweeps = 60;
-/// What a factorization takes, on scans: bytes a triangle, operations over the triangles to the power of 3/2. Of one
-/// thread and steps as measured, see Documentation/Performance.md.
-constexpr double kBytesPerFace = 1500;
+/// What Newton steps take, on scans: bytes a triangle, of which so many are not the factorization's, and operations over
+/// the triangles to the power of 3/2. Of one thread and steps as measured, see Documentation/Performance.md.
+constexpr double kBytesPerFace = 2000;
+constexpr double kBytesOfTriangle = 900;
 constexpr double kOperationsPerRoot = 60;
 constexpr double kOperationsPerSecond = 5e9;
 constexpr double kUsualSteps = 4;
@@ -69,7 +71,7 @@ private:
   void relaxCrushed();
   bool relaxVertex(Index v);
 
-  std::unique_ptr<NestedSolver> solver_;
+  std::unique_ptr<ReducedTriangles> system_;
 };
 
 /// The sum of the ways that are left, in quads.
@@ -83,24 +85,21 @@ double MapRelaxation::insetLeft() const
   return sum;
 }
 
-/// The step of Newton's method, with the least shift that has one; false where none has.
+/// The step of Newton's method; false where there is none.
 bool MapRelaxation::solveStep(Eigen::VectorXd& direction)
 {
-  bool solved = false;
-  for (double shift = 1e-9; shift < 1e3 && !solved; shift *= 1000)
-  {
-    solved = solver_->solve([this](Index f, NestedSolver::Matrix6& m, NestedSolver::Vector6& b)
-      { element(f, m, b); },
-      shift, options_.threads, direction);
-  }
-  return solved && direction.allFinite();
+  std::vector<Jacobian> gradients;
+  std::vector<Eigen::Matrix4d> hessians;
+  derivatives(gradients, hessians);
+  system_->assemble(gradients, hessians);
+  return system_->newtonStep(kRegularization, direction);
 }
 
 /// One step towards the place of the inset boundary, with what is free in its wake. False where nothing moves.
 bool MapRelaxation::stepInset()
 {
   Eigen::VectorXd direction;
-  if (solver_->unknowns() > 0 && !solveStep(direction))
+  if (system_->unknowns() > 0 && !solveStep(direction))
   {
     return false;
   }
@@ -356,19 +355,10 @@ bool MapRelaxation::makeSolver(RelaxResult& result)
     return false;
   }
   report(options_.progress, 0, "preparing to lessen the distortion");
-  std::vector<std::uint8_t> unknowns(mesh_.vertexCount());
-  for (Index v = 0; v < mesh_.vertexCount(); ++v)
-  {
-    unknowns[v] = static_cast<std::uint8_t>(free_[v][0] + free_[v][1]);
-  }
-  std::vector<std::array<Index, 3>> triangles(mesh_.faceCount());
-  for (Index f = 0; f < mesh_.faceCount(); ++f)
-  {
-    triangles[f] = { mesh_.origin[3 * f], mesh_.origin[3 * f + 1], mesh_.origin[3 * f + 2] };
-  }
-  solver_ = std::make_unique<NestedSolver>(mesh_.position, unknowns, triangles);
-  result.bytes = solver_->bytes();
-  return check(solver_->bytes(), solver_->operations(), result);
+  system_ = std::make_unique<ReducedTriangles>(problem());
+  system_->analyze();
+  const SparseCholesky& solver = system_->solver();
+  return check(solver.factorBytes() + kBytesOfTriangle * faces, solver.factorFlops() / 2, result);
 }
 
 RelaxResult MapRelaxation::run()
@@ -394,7 +384,7 @@ RelaxResult MapRelaxation::run()
   }
   relaxCrushed();
   current = totalEnergy(false);
-  while (result.steps < options_.maximumSteps && solver_->unknowns() > 0)
+  while (result.steps < options_.maximumSteps && system_->unknowns() > 0)
   {
     report(options_.progress, static_cast<double>(result.steps) / options_.maximumSteps,
       "lessening the distortion");

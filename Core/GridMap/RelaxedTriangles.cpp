@@ -3,6 +3,7 @@
 #include "GridMap/RelaxedTriangles.h"
 
 #include "Base/Angles.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "GridMap/Certificate.h"
@@ -390,40 +391,65 @@ Eigen::Matrix<double, 4, 2> RelaxedTriangles::cornerDerivative(Index h) const
   return result;
 }
 
-void RelaxedTriangles::element(
-  Index f, NestedSolver::Matrix6& matrix, NestedSolver::Vector6& rightSide) const
+UntangleProblem RelaxedTriangles::problem() const
 {
-  if (!(references_[f].weight > 0))
+  UntangleProblem problem;
+  std::vector<Eigen::Triplet<double>> triplets;
+  std::vector<std::array<int, 2>> unknown(mesh_.vertexCount());
+  int unknowns = 0;
+  for (Index v = 0; v < mesh_.vertexCount(); ++v)
   {
-    matrix.setZero();
-    rightSide.setZero();
-    return;
-  }
-  Jacobian gradient;
-  Eigen::Matrix4d hessian;
-  derive(f, gradient, hessian);
-  Eigen::Matrix<double, 4, 6> derivative = Eigen::Matrix<double, 4, 6>::Zero();
-  Eigen::Index column = 0;
-  for (Index h = 3 * f; h < 3 * f + 3; ++h)
-  {
-    const Eigen::Matrix<double, 4, 2> corner = cornerDerivative(h);
-    for (int axis = 0; axis < 2; ++axis)
+    for (std::size_t axis = 0; axis < 2; ++axis)
     {
-      if (free_[mesh_.origin[h]][static_cast<std::size_t>(axis)] != 0)
+      unknown[v][axis] = free_[v][axis] != 0 ? unknowns++ : -1;
+    }
+  }
+  for (Index f = 0; f < mesh_.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    if (!(references_[f].weight > 0))
+    {
+      continue;
+    }
+    problem.triangles.push_back({ 3 * f, 3 * f + 1, 3 * f + 2 });
+    problem.inverseReference.push_back(references_[f].inverse);
+    problem.weight.push_back(references_[f].weight);
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      for (std::size_t axis = 0; axis < 2; ++axis)
       {
-        derivative.col(column++) = corner.col(axis);
+        if (unknown[mesh_.origin[h]][axis] >= 0)
+        {
+          const FixedVec2 along =
+            rotate(axis == 0 ? FixedVec2{ 1, 0 } : FixedVec2{ 0, 1 }, rotation_[h]);
+          triplets.emplace_back(static_cast<int>(2 * h) + (along.u != 0 ? 0 : 1),
+            unknown[mesh_.origin[h]][axis], static_cast<double>(along.u + along.v));
+        }
       }
     }
   }
-  matrix.noalias() = derivative.transpose() * (hessian * derivative);
-  if (!inset_.empty())
-  {
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  problem.offset.setZero(2 * Eigen::Index(mesh_.halfEdgeCount()));
+  problem.basis.resize(problem.offset.size(), unknowns);
+  problem.basis.setFromTriplets(triplets.begin(), triplets.end());
+  return problem;
+}
+
+void RelaxedTriangles::derivatives(
+  std::vector<Jacobian>& gradients, std::vector<Eigen::Matrix4d>& hessians) const
+{
+  const std::vector<Index> faces =
+    idsWhere(mesh_.faceCount(), [&](Index f) { return references_[f].weight > 0; });
+  gradients.resize(faces.size());
+  hessians.resize(faces.size());
+  parallelForEach(faces.size(), kFacesOfRelaxation, options_.threads,
+    [&](std::size_t i)
     {
-      gradient += hessian * (cornerDerivative(h) * toDouble(inset_[mesh_.origin[h]]));
-    }
-  }
-  rightSide.noalias() = -(derivative.transpose() * gradient);
+      derive(faces[i], gradients[i], hessians[i]);
+      for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3 && !inset_.empty(); ++h)
+      {
+        gradients[i] += hessians[i] * (cornerDerivative(h) * toDouble(inset_[mesh_.origin[h]]));
+      }
+    });
 }
 
 /// Of all triangles that count.

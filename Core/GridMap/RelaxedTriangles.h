@@ -8,7 +8,6 @@
 #include "GridMap/RelaxMap.h"
 #include "Mesh/Mesh.h"
 #include "Numerics/IsotropicEnergy.h"
-#include "Numerics/NestedSolver.h"
 #include "Numerics/ReducedTriangles.h"
 
 #include <Eigen/Core>
@@ -62,7 +61,11 @@ protected:
   void derive(Index f, Jacobian& gradient, Eigen::Matrix4d& hessian) const;
   /// Derivatives of J by the displacements of a corner's vertex along its two axes.
   Eigen::Matrix<double, 4, 2> cornerDerivative(Index h) const;
-  void element(Index f, NestedSolver::Matrix6& matrix, NestedSolver::Vector6& rightSide) const;
+  /// The displacements of the vertices as unknowns, along the axes that are free, vertex after vertex. Its triangles are
+  /// those that count, in their order.
+  UntangleProblem problem() const;
+  /// Derivatives of the energy of these triangles by their Jacobians, where those of `inset_` have moved.
+  void derivatives(std::vector<Jacobian>& gradients, std::vector<Eigen::Matrix4d>& hessians) const;
   double referenceArea() const;
   double totalEnergy(bool stepped) const;
   double starEnergy(Index v, bool stepped) const;

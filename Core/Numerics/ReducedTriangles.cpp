@@ -203,6 +203,15 @@ void ReducedTriangles::assemble(
   }
 }
 
+void ReducedTriangles::analyze()
+{
+  if (!analyzed_ && unknowns() > 0)
+  {
+    solver_.analyze(hessian_);
+    analyzed_ = true;
+  }
+}
+
 bool ReducedTriangles::newtonStep(double regularization, Eigen::VectorXd& step)
 {
   if (unknowns() == 0)
@@ -210,11 +219,7 @@ bool ReducedTriangles::newtonStep(double regularization, Eigen::VectorXd& step)
     step.resize(0);
     return true;
   }
-  if (!analyzed_)
-  {
-    solver_.analyze(hessian_);
-    analyzed_ = true;
-  }
+  analyze();
   double mean = 0;
   for (const int entry : diagonal_)
   {

@@ -34,6 +34,10 @@ public:
   /// Lower triangle, compressed, with all of the diagonal.
   const Eigen::SparseMatrix<double>& hessian() const { return hessian_; }
 
+  /// What a factorization takes can be asked then, and is by newtonStep() before the first one.
+  void analyze();
+  const SparseCholesky& solver() const { return solver_; }
+
   /// The Newton step -(H + regularization * mean(diag H))^-1 g. The regularization is raised until the
   /// matrix is positive definite; false when no finite step exists.
   bool newtonStep(double regularization, Eigen::VectorXd& step);

@@ -335,14 +335,20 @@ void SparseCholesky::findRows()
       child[above] = s;
     }
   }
-  values_.resize(static_cast<std::size_t>(values));
+  valueCount_ = values;
+}
+
+double SparseCholesky::factorBytes() const
+{
+  return static_cast<double>(valueCount_) * sizeof(double) +
+    static_cast<double>(rows_.size()) * sizeof(int);
 }
 
 bool SparseCholesky::factorize(const Matrix& lower, double shift)
 {
   refuseIf(lower.cols() != size() || lower.nonZeros() != entryCount_,
     "L L^T: the matrix has not the pattern that was analyzed");
-  std::fill(values_.begin(), values_.end(), 0.0);
+  values_.assign(static_cast<std::size_t>(valueCount_), 0.0);
   std::vector<int> localRow(parent_.size());
   // Supernodes that are done, by the supernode that they add to next, and their first row in it.
   std::vector<int> first(nodes_.size(), -1), next(nodes_.size(), -1), reached(nodes_.size(), 0);

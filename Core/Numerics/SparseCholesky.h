@@ -28,6 +28,8 @@ public:
   bool factorize(const Matrix& lower, double shift);
   /// Multiplications and additions of one factorization, by the pattern that was analyzed.
   double factorFlops() const { return flops_; }
+  /// Memory of a factorization, by the same.
+  double factorBytes() const;
   /// After a factorization that succeeded.
   Eigen::VectorXd solve(const Eigen::VectorXd& rightSide) const;
 
@@ -78,6 +80,7 @@ private:
   std::vector<Supernode> nodes_;
   std::vector<int> nodeOf_; ///< of each column
   std::vector<int> rows_;   ///< of all supernodes; ascending in each
+  std::ptrdiff_t valueCount_ = 0;
   std::vector<double> values_;
   double flops_ = 0;
 };
