@@ -32,8 +32,8 @@ constexpr double kRegularization = 1e-9;
 /// How often the whole step is halved before the descent ends.
 constexpr int kBacktracking = 6;
 constexpr int kLocalSweeps = 60;
-/// What Newton steps take, on scans: bytes a triangle, of which so many are not the factorization's, and operations over
-/// the triangles to the power of 3/2. Of one thread and steps as measured, see Documentation/Performance.md.
+/// What Newton steps take, on scans: bytes a triangle, those of them that are not the factorization's, and operations
+/// over the triangles to the power of 3/2. Of one thread and steps as measured, see Documentation/Performance.md.
 constexpr double kBytesPerFace = 2000;
 constexpr double kBytesOfTriangle = 900;
 constexpr double kOperationsPerRoot = 60;

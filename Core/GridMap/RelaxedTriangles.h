@@ -61,7 +61,7 @@ protected:
   void derive(Index f, Jacobian& gradient, Eigen::Matrix4d& hessian) const;
   /// Derivatives of J by the displacements of a corner's vertex along its two axes.
   Eigen::Matrix<double, 4, 2> cornerDerivative(Index h) const;
-  /// The displacements of the vertices as unknowns, along the axes that are free, vertex after vertex. Its triangles are
+  /// The displacements of the vertices as unknowns, along the axes that are free, vertex after vertex. Triangles are
   /// those that count, in their order.
   UntangleProblem problem() const;
   /// Derivatives of the energy of these triangles by their Jacobians, where those of `inset_` have moved.

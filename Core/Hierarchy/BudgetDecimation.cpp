@@ -8,7 +8,6 @@
 #include "Hierarchy/ComparedCosts.h"
 #include "Hierarchy/ComponentShares.h"
 #include "Hierarchy/GaussianCurvatureCost.h"
-#include "Hierarchy/GuideRegions.h"
 #include "Hierarchy/VertexRemoval.h"
 
 #include <Eigen/Geometry>
@@ -67,7 +66,7 @@ float numberOf(std::uint32_t word)
 }
 
 /// Removals are first confined to the strictest guards; the next ones are taken when the budget needs it.
-std::vector<RemovalGuards> guardStages(double curveTolerance, double regionTolerance)
+std::vector<RemovalGuards> guardStages(double curveTolerance)
 {
   RemovalGuards strict;
   strict.minimumQuality = 0.4;
@@ -75,7 +74,6 @@ std::vector<RemovalGuards> guardStages(double curveTolerance, double regionToler
   strict.minimumValence = 5;
   strict.maximumValence = 8;
   strict.curveTolerance = curveTolerance;
-  strict.regionTolerance = regionTolerance;
   RemovalGuards medium = strict;
   medium.minimumQuality = 0.3;
   medium.minimumNormalDot = 0.35;
@@ -163,7 +161,6 @@ private:
   const BudgetOptions& options_;
   StarCache& cache_;
   ComponentShares shares_;
-  GuideCarrier carrier_;
   std::vector<char> kept_;
   std::vector<Index> version_;
   std::vector<float> defect_;            ///< current angle defects, for GaussianMemory
@@ -250,8 +247,7 @@ BudgetResult BudgetDecimation::run()
   {
     Stage stage;
     stage.ceiling = wantsChange() ? ceiling : kCeilings.back();
-    for (const RemovalGuards& guards :
-      guardStages(options_.curveTolerance, options_.regionTolerance))
+    for (const RemovalGuards& guards : guardStages(options_.curveTolerance))
     {
       stage.guards = guards;
       if (alive_ > budget_)
@@ -324,9 +320,7 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
     moved_ += wantsChange() ? movedBy(work) : 0;
     remember(work);
     fillCache(work);
-    carrier_.gather(mesh_, removal);
     removal.apply(records);
-    carrier_.carry(mesh_);
     shares_.remove(entry.vertex);
     ++version_[entry.vertex];
     --alive_;

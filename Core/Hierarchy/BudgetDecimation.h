@@ -27,7 +27,6 @@ struct BudgetOptions
   const std::vector<Index>* names = nullptr; ///< null: their ids
   std::vector<float> inputDefect; ///< #V angle defects of the input; for GaussianMemory only
   double curveTolerance = 0;      ///< see RemovalGuards
-  double regionTolerance = 0;     ///< the same
   int threads = 0;
   ProgressCallback progress;
 };

@@ -72,7 +72,7 @@ bool DecimationMesh::hasEdge(Index a, Index b) const
   return false;
 }
 
-Index DecimationMesh::nextOnCurve(Index v, Index from, bool ofBorder) const
+Index DecimationMesh::nextOnCurve(Index v, Index from) const
 {
   Index found = kInvalidIndex;
   int others = 0;
@@ -88,12 +88,12 @@ Index DecimationMesh::nextOnCurve(Index v, Index from, bool ofBorder) const
   Index h = first;
   do
   {
-    if (ofBorder ? isRegionBorder(h) : isConstrained(h))
+    if (isConstrained(h))
     {
       consider(target(h));
     }
     const Index incoming = Mesh::previous(h);
-    if (twin[incoming] == kInvalidIndex && !ofBorder)
+    if (twin[incoming] == kInvalidIndex)
     {
       consider(origin[incoming]);
     }
@@ -195,10 +195,6 @@ Level DecimationMesh::extract() const
     {
       newFace[f] = static_cast<Index>(level.fineFace.size());
       level.fineFace.push_back(f);
-      if (!guides.empty())
-      {
-        level.guides.push_back(guides[f]);
-      }
     }
   }
   for (const Index f : level.fineFace)

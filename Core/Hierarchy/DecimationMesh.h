@@ -32,10 +32,6 @@ public:
   FeatureCurves curves;
   /// Largest distance by which the curve edges at a vertex already deviate from the input's curve.
   std::vector<float> curveError;
-  /// Guides of the faces (#F), and for vertices whether the border of a guided region passes there (#V flags). Empty
-  /// where there are none, see GuideRegions.h.
-  std::vector<Guide> guides;
-  std::vector<std::uint8_t> border;
 
   /// Wanted size at a vertex as a multiple of s.
   double sizeOf(Index v) const { return sizing.empty() ? 1.0 : double{ sizing[v] }; }
@@ -45,16 +41,14 @@ public:
   Index target(Index h) const { return origin[Mesh::next(h)]; }
   bool isBoundary(Index h) const { return twin[h] == kInvalidIndex; }
   bool isConstrained(Index h) const { return isBoundary(h) || (flags[h] & kFeatureEdge) != 0; }
-  bool isRegionBorder(Index h) const { return (flags[h] & kRegionBorder) != 0; }
   bool hasEdge(Index a, Index b) const;
   /// The same, looking round the one with fewer neighbours.
   bool areJoined(Index a, Index b) const
   {
     return valence[a] < valence[b] ? hasEdge(a, b) : hasEdge(b, a);
   }
-  /// The one neighbour of `v` other than `from` along constrained edges, or along borders of regions; none at ends and
-  /// junctions.
-  Index nextOnCurve(Index v, Index from, bool ofBorder = false) const;
+  /// The one neighbour of `v` other than `from` along constrained edges; none at ends and junctions.
+  Index nextOnCurve(Index v, Index from) const;
 
   /// Carries out the collapse of a record whose vertex sits in its slots.
   void collapse(const CollapseRecord& record);

@@ -9,7 +9,6 @@
 #include "Base/Refuse.h"
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/GaussianCurvatureCost.h"
-#include "Hierarchy/GuideRegions.h"
 #include "Hierarchy/HierarchyChecks.h"
 #include "Hierarchy/IntermediateLevel.h"
 #include "Hierarchy/LevelTerms.h"
@@ -29,10 +28,6 @@ namespace quadrille
 
 namespace
 {
-
-/// How far the border of a guided region may lie from its course on the intermediate level, in s: no guide has to be
-/// finer than a quad, and the triangles that it follows make it jagged by that much.
-constexpr double kRegionTolerance = 0.5;
 /// Vertices that phase 1 leaves on the area of a square with its edge length.
 constexpr double kVerticesPerSquare = 0.35;
 
@@ -48,14 +43,12 @@ BudgetOptions budgetOptions(const Level& level, const HierarchyOptions& options)
     budget.keepVertices.push_back(*positionIn(level, v));
   }
   budget.curveTolerance = kCurveTolerance * options.targetEdgeLength;
-  budget.regionTolerance = kRegionTolerance * options.targetEdgeLength;
   budget.threads = options.threads;
   budget.progress = subProgress(options.progress, 0.6, 1.0);
   return budget;
 }
 
-/// Rounds like those of phase 1 on its level, until about so many vertices are left, more where guides are: their
-/// regions wait for phase 2, which carries them. What they do goes to the log.
+/// Rounds like those of phase 1 on its level, until about so many vertices are left. What they do goes to the log.
 void thinOutFurther(const Level& level, Index mostOrdered, const BudgetOptions& budget,
   DecimationMesh& mesh, DecimationLog& log)
 {
@@ -68,13 +61,6 @@ void thinOutFurther(const Level& level, Index mostOrdered, const BudgetOptions& 
   uniform.scale = vertexScales(level.mesh, 2 * uniform.edgeLength, false, budget.threads).scale;
   uniform.curveTolerance = budget.curveTolerance;
   uniform.keepVertices = budget.keepVertices;
-  for (std::size_t h = 0; h < mesh.guides.size() * 3; ++h)
-  {
-    if (!mesh.guides[h / 3].isFree())
-    {
-      uniform.keepVertices.push_back(mesh.origin[h]);
-    }
-  }
   uniform.threads = budget.threads;
   uniform.progress = subProgress(budget.progress, 0.0, 0.5);
   LogBuilder builder;
@@ -115,8 +101,8 @@ public:
     sortUnique(kept);
     intermediate_.put(kept, options);
     intermediate_.dropCoarse();
-    intermediate_.carryGuides(options);
     decimate(options);
+    intermediate_.carryGuides(options);
     hierarchy_.secondsPhase2 = watch.seconds();
     return hierarchy_;
   }
@@ -131,12 +117,6 @@ private:
     if (options.cost == DecimationCost::GaussianMemory)
     {
       budget.inputDefect = inputDefects(level);
-    }
-    if (!level.guides.empty())
-    {
-      const std::vector<Index> corners =
-        markGuideRegions(mesh, level.guides, options.targetEdgeLength);
-      budget.keepVertices.insert(budget.keepVertices.end(), corners.begin(), corners.end());
     }
     thinOutFurther(level, options.mostOrdered, budget, mesh, hierarchy_.log);
     BudgetResult result = decimateToBudget(mesh, budget, cacheFor(options.cost));
@@ -216,7 +196,12 @@ std::size_t Redecimation::bytesAside() const
   return implementation_->intermediate().bytesAside();
 }
 
-void Redecimation::replaceCoarseGuides(std::vector<Guide> guides)
+void Redecimation::setGuides(const HierarchyOptions& options)
+{
+  implementation_->intermediate().carryGuides(options);
+}
+
+void Redecimation::setCoarseGuides(std::vector<Guide> guides)
 {
   implementation_->hierarchy().coarse.guides = std::move(guides);
 }

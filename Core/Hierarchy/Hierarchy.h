@@ -48,8 +48,8 @@ struct HierarchyOptions
   /// Vertices of the finest mesh that no phase may remove (index constraints; places where a map needs
   /// more freedom, see TransferResult::defectVertices).
   std::vector<Index> keepVertices;
-  /// Guides of faces of the finest mesh, ascending by face (see surfaceGuides). Their regions keep their borders and
-  /// corners in phase 2, which carries the directions to the coarse level.
+  /// Guides of faces of the finest mesh, ascending by face (see surfaceGuides), which are brought to the intermediate
+  /// level. No triangle of any level depends on them.
   std::vector<FaceGuide> guides;
   /// Phase 1 may leave some edges shorter than s/2, where that costs more time than it saves later: for a
   /// level that is thinned out again.
@@ -98,7 +98,7 @@ struct Hierarchy
 };
 
 /// A hierarchy whose coarse level can be made again, from the intermediate one, when other vertices are to be kept,
-/// or guides or the budget change [Section 5.3]. What a removal costs is remembered from one time to the next by the
+/// or the budget changes [Section 5.3]. What a removal costs is remembered from one time to the next by the
 /// star of the vertex; the result is the same as without.
 class Redecimation
 {
@@ -122,8 +122,11 @@ public:
   const Hierarchy& update(const HierarchyOptions& options);
   /// The hierarchy after the last update().
   const Hierarchy& hierarchy() const;
-  /// Other guides for the coarse level (#F), until the next update().
-  void replaceCoarseGuides(std::vector<Guide> guides);
+  /// The guides of the options, which alone have changed since update(), on the intermediate level: no triangle of any
+  /// level depends on them. Those of the coarse level are for the caller to gather, see Transfer/SurfaceStretch.h.
+  void setGuides(const HierarchyOptions& options);
+  /// Guides of the coarse level (#F), until the next update().
+  void setCoarseGuides(std::vector<Guide> guides);
   /// Gives the hierarchy away; this object must not be used any more.
   Hierarchy take();
   /// Of what is held to go back to the level that phase 1 left; hierarchy() is not among it.

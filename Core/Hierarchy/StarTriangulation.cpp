@@ -389,8 +389,7 @@ bool VertexRemoval::forbidExistingDiagonals()
     // A diagonal belongs to two triangles; its edge a - c is seen from the one that it closes.
     const int a = triangle.a;
     const int c = triangle.c;
-    const bool curveEdge =
-      (onCurve_ || border_) && std::min(a, c) == 0 && std::max(a, c) == curveEnd_;
+    const bool curveEdge = onCurve_ && std::min(a, c) == 0 && std::max(a, c) == curveEnd_;
     if (!curveEdge && !isRingEdge(a, c) && !isRingEdge(c, a) &&
       mesh_.areJoined(ring_[index(a)], ring_[index(c)]))
     {

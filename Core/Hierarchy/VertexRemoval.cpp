@@ -34,7 +34,6 @@ bool VertexRemoval::gather(Index v)
     return false;
   }
   onCurve_ = mesh_.curves.kind[v] == VertexKind::Curve;
-  border_ = !onCurve_ && !mesh_.border.empty() && mesh_.border[v] != 0;
   const Index first = mesh_.outgoing[v];
   boundary_ = mesh_.isBoundary(first);
   anyConstrained_ = false;
@@ -54,7 +53,7 @@ bool VertexRemoval::gather(Index v)
   do
   {
     slot_[index(faces_)] = h;
-    if ((onCurve_ && mesh_.isConstrained(h)) || (border_ && mesh_.isRegionBorder(h)))
+    if (onCurve_ && mesh_.isConstrained(h))
     {
       (firstCurve < 0 ? firstCurve : curveEnd_) = faces_;
     }
@@ -107,7 +106,7 @@ bool VertexRemoval::surroundingsFit(const RemovalGuards& guards) const
 {
   // The neighbours on the curve may be joined by an edge already: that of another curve, which the curve's two edges
   // would become one with [Hoppe 1996], or the outer edge of a side that is a single face.
-  if ((onCurve_ || border_) &&
+  if (onCurve_ &&
     (!curveStaysClose(guards) || !loopStaysLong() ||
       mesh_.hasEdge(ring_[0], ring_[index(curveEnd_)])))
   {
@@ -156,8 +155,7 @@ void VertexRemoval::addStarKey(
   const auto nameOf = [names](Index v) { return names == nullptr ? v : (*names)[v]; };
   words.push_back(nameOf(vertex_));
   words.push_back(static_cast<std::uint32_t>(ringSize_) | (boundary_ ? 1U << 8 : 0U) |
-    (border_ ? 1U << 9 : 0U) |
-    (onCurve_ || border_ ? static_cast<std::uint32_t>(curveEnd_) << 16 : 0U));
+    (onCurve_ ? static_cast<std::uint32_t>(curveEnd_) << 16 : 0U));
   words.push_back(static_cast<std::uint32_t>(constrained));
   words.push_back(static_cast<std::uint32_t>(constrained >> 32));
   for (int i = 0; i < ringSize_; ++i)
@@ -216,10 +214,6 @@ bool VertexRemoval::curveStaysClose(const RemovalGuards& guards) const
   }
   const double t = std::clamp(-a.dot(ab) / squared, 0.0, 1.0);
   const double distance = (a + t * ab).norm();
-  if (border_)
-  {
-    return distance <= guards.regionTolerance * mesh_.sizeOf(vertex_);
-  }
   return distance + mesh_.curveError[vertex_] <= guards.curveTolerance * mesh_.sizeOf(vertex_);
 }
 
@@ -228,8 +222,8 @@ bool VertexRemoval::loopStaysLong() const
   // The curve ... p - r0 - v - r1 - q ...: with p == q the loop would fall to three edges.
   const Index r0 = ring_[0];
   const Index r1 = ring_[index(curveEnd_)];
-  const Index p = mesh_.nextOnCurve(r0, vertex_, border_);
-  return p == kInvalidIndex || p != mesh_.nextOnCurve(r1, vertex_, border_);
+  const Index p = mesh_.nextOnCurve(r0, vertex_);
+  return p == kInvalidIndex || p != mesh_.nextOnCurve(r1, vertex_);
 }
 
 bool VertexRemoval::closesTetrahedron() const
@@ -333,7 +327,7 @@ int VertexRemoval::newValence(int i) const
 int VertexRemoval::bestTarget() const
 {
   // Every diagonal that ends at the target saves one flip. A vertex of a curve goes along it [Hoppe 1996].
-  if (onCurve_ || border_)
+  if (onCurve_)
   {
     return diagonals_[index(curveEnd_)] > diagonals_[0] ? curveEnd_ : 0;
   }

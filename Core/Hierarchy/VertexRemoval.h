@@ -47,8 +47,6 @@ struct RemovalGuards
   /// none yet.
   bool allowConstrainedFaces = false;
   double curveTolerance = 0; ///< distance by which a curve may deviate from the input's
-  double regionTolerance =
-    0; ///< distance of the border of a guided region to the edge that takes its place
 };
 
 class VertexRemoval
@@ -126,9 +124,8 @@ private:
   }
   bool isRingEdge(int x, int y) const { return starFace(x, y) >= 0; }
 
-  /// A curve or the border of a region passes inside the surface; the edge that takes its place parts the
-  /// triangulation.
-  bool splits() const { return (onCurve_ && !boundary_) || border_; }
+  /// A curve passes inside the surface; the edge that takes its place parts the triangulation.
+  bool splits() const { return onCurve_ && !boundary_; }
   void rotateToCurve(int first);
   bool measureStar();
   bool mapToPlane();
@@ -160,10 +157,8 @@ private:
   int ringSize_ = 0;
   bool boundary_ = false;
   bool onCurve_ = false;
-  bool border_ = false;         ///< no curve, but the border of a guided region passes
   bool anyConstrained_ = false; ///< some ring vertex lies on a curve
-  int curveEnd_ =
-    0; ///< ring position of the second neighbour on curve or border; the first one is at 0
+  int curveEnd_ = 0; ///< ring position of the second neighbour on the curve; the first one is at 0
 
   std::array<Index, kN> slot_{}; ///< corner of the vertex in its faces
   std::array<Index, kN> ring_{};

@@ -23,9 +23,7 @@ enum HalfEdgeFlag : std::uint8_t
 {
   kFeatureEdge = 1, ///< set on both half-edges of a feature edge; boundary edges need no flag
   kRequestedFeature =
-    2, ///< the user asked for this feature; without it, the dihedral angle alone did
-  kRegionBorder =
-    4 ///< parts guided from free faces on a level of the hierarchy; constrains decimation only
+    2 ///< the user asked for this feature; without it, the dihedral angle alone did
 };
 
 /// A copy shares all arrays until one of the two changes one: it costs next to nothing.

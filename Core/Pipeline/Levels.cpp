@@ -15,8 +15,12 @@ namespace
 /// Of what phase 2 depends on.
 ResultKey phase2Key(ResultKey surface, const HierarchyOptions& options)
 {
-  KeyMaker key(surface);
-  key.add(options.keepVertices, options.coarseVertices, options.cost);
+  return KeyMaker(surface).add(options.keepVertices, options.coarseVertices, options.cost).key();
+}
+
+ResultKey guidesKey(ResultKey phase2, const HierarchyOptions& options)
+{
+  KeyMaker key(phase2);
   for (const FaceGuide& guide : options.guides)
   {
     key.add(guide.face, guide.guide.weight, guide.guide.direction);
@@ -111,14 +115,18 @@ const Hierarchy& Levels::make(const PlannedSurface& surface, const HierarchyOpti
     held_->made = 0; // what is stopped on the way is not made
     held_->levels->setSizes(surface->mesh.sizing);
     const Hierarchy& hierarchy = held_->levels->update(options);
-    if (!hierarchy.coarse.guides.empty())
-    {
-      held_->levels->replaceCoarseGuides(
-        gatherGuides(hierarchy.intermediate, hierarchy.coarse, hierarchy.log));
-    }
     held_->made = wanted;
     stages_.add("phase2", hierarchy.secondsPhase2, hierarchy.intermediate.mesh.faceCount(),
       hierarchy.coarse.mesh.faceCount());
+  }
+  const ResultKey guided = guidesKey(wanted, options);
+  if (held_->guided != guided)
+  {
+    held_->guided = 0; // the same
+    held_->levels->setGuides(options);
+    const Hierarchy& levels = held_->levels->hierarchy();
+    held_->levels->setCoarseGuides(gatherGuides(levels.intermediate, levels.coarse, levels.log));
+    held_->guided = guided;
   }
   return hierarchy();
 }

@@ -19,7 +19,8 @@ namespace quadrille
 struct StoredLevels
 {
   std::unique_ptr<Redecimation> levels;
-  ResultKey made = 0; ///< of the options of phase 2, when the coarse level was made last
+  ResultKey made = 0;   ///< of the options of phase 2, when the coarse level was made last
+  ResultKey guided = 0; ///< of these and of the guides, when they were put on the levels last
 
   std::size_t bytes() const;
 };

@@ -384,14 +384,6 @@ void layOutLevel(
   }
 }
 
-/// Of a coarse face: area times weight times the fourth powers of directions, and area times weight.
-struct GuideShare
-{
-  Complex direction = 0;
-  double weight = 0;
-  double area = 0;
-};
-
 /// The fourth power of what the guide of a finer face is on the coarse plane; 0 where it is nothing.
 Complex guideOnPlane(
   const Mesh& mesh, Index f, const Guide& guide, const Eigen::Matrix2d& fromPlane)
@@ -409,13 +401,14 @@ Complex guideOnPlane(
   return unit * unit * unit * unit;
 }
 
-Guide guideInSpace(const Mesh& mesh, Index f, const GuideShare& share)
+/// sum: over the face, of area times weight times the fourth powers of directions.
+Guide guideInSpace(const Mesh& mesh, Index f, Complex sum)
 {
   const Vector3 x = mesh.edgeVector(3 * f).normalized();
   const Vector3 y = x.cross(mesh.edgeVector(3 * f + 1)).normalized().cross(x);
-  const double angle = 0.25 * std::arg(share.direction);
+  const double angle = 0.25 * std::arg(sum);
   return { std::cos(angle) * x + std::sin(angle) * y,
-    static_cast<float>(std::clamp(share.weight / share.area, 1e-30, 1.0)) };
+    static_cast<float>(std::min(std::abs(sum) / mesh.faceArea(f), 1.0)) };
 }
 
 } // namespace
@@ -423,16 +416,15 @@ Guide guideInSpace(const Mesh& mesh, Index f, const GuideShare& share)
 std::vector<Guide> gatherGuides(
   const Level& intermediate, const Level& coarse, const DecimationLog& log)
 {
-  std::vector<Guide> guides = coarse.guides;
-  if (guides.empty() || intermediate.guides.empty())
+  if (intermediate.guides.empty())
   {
-    return guides;
+    return {};
   }
   const CoarsePlanes planes(coarse.mesh);
   Layout layout(planes, intermediate.mesh.faceCount());
   layOutLevel(intermediate, coarse, log, layout);
   const PolygonSpread spread(planes);
-  std::vector<GuideShare> shares(coarse.mesh.faceCount());
+  std::vector<Complex> sums(coarse.mesh.faceCount(), 0);
   for (Index f = 0; f < intermediate.mesh.faceCount(); ++f)
   {
     pollNowAndThen(f);
@@ -450,17 +442,14 @@ std::vector<Guide> gatherGuides(
     spread(layout.home(f), kInvalidIndex, { flat[0], flat[1], flat[2] },
       guideOnPlane(intermediate.mesh, f, guide, *map),
       [&](Index c, double area, Complex direction)
-      {
-        shares[c].direction += area * guide.weight * direction;
-        shares[c].weight += area * guide.weight;
-        shares[c].area += area;
-      });
+      { sums[c] += area * double{ guide.weight } * direction; });
   }
+  std::vector<Guide> guides(coarse.mesh.faceCount());
   for (Index f = 0; f < coarse.mesh.faceCount(); ++f)
   {
-    if (!guides[f].isFree() && shares[f].area > 0 && std::abs(shares[f].direction) > 0)
+    if (std::abs(sums[f]) > 0 && coarse.mesh.faceArea(f) > 0)
     {
-      guides[f] = guideInSpace(coarse.mesh, f, shares[f]);
+      guides[f] = guideInSpace(coarse.mesh, f, sums[f]);
     }
   }
   return guides;

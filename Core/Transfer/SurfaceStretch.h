@@ -35,8 +35,9 @@ SurfaceStretch measureStretch(
   const Level& intermediate, const Level& coarse, const DecimationLog& log);
 
 /// Guides of the coarse level (#F, or empty) from those of the intermediate faces that a face stands for: the mean of
-/// their crosses, each carried to the coarse triangle by the inverse of J. Phase 2 has carried them from triangle to
-/// triangle, each time that of one place; which faces have one stays as it says. Throws as measureStretch does.
+/// their crosses, each carried to the coarse triangle by the inverse of J. Its weight is their sum over the triangle's
+/// area: a stroke that covers a third of a triangle, or turns within it, has so much less of a say there. Throws as
+/// measureStretch does.
 std::vector<Guide> gatherGuides(
   const Level& intermediate, const Level& coarse, const DecimationLog& log);
 
