@@ -34,8 +34,6 @@ namespace
 {
 
 constexpr int kMaximumScalings = 4;
-/// How many integers are tried where embedding fails; three were enough on most parts.
-constexpr int kMostEmbeddings = 6;
 /// The number of quads is accepted when it is this close to the target (relative).
 constexpr double kCountTolerance = 0.06;
 /// However many blocks there are, the other components have this part of the quads that they would have alone.
@@ -512,45 +510,33 @@ private:
     }
   }
 
-  /// False, and nothing is changed, where there are no others with more watched. failed: where the present ones fail.
-  bool changeIntegers(Component& component, const std::vector<Index>& more,
-    const FailedFaces& failed, std::vector<Index>& watched, const ProgressCallback& progress)
+  /// Integers with room round the places where the present ones fail, and for the vertices that found no star to return
+  /// to. False, and nothing is changed, where there are no others.
+  bool leaveRoom(
+    Component& component, const EmbedResult& embedded, const ProgressCallback& progress)
   {
     countTry(Try::OtherIntegers);
-    std::vector<Index> all = join(watched, more);
-    QuantizeResult quantized = madeOrTold(component.part, failed,
-      [&] { return quantize(component, component.startUv, all, progress); });
+    const Mesh& mesh = component.part.mesh;
+    const std::vector<Index> watched =
+      join(cornerVertices(mesh, findNotPositive(mesh, component.uv)), embedded.failedAt);
+    QuantizeResult quantized = madeOrTold(component.part, embedded.failedFaces,
+      [&] { return quantize(component, component.startUv, watched, progress); });
     if (!quantized.status.ok() || quantized.uv == component.uv)
     {
       return false;
     }
-    watched = std::move(all);
     component.refinement = quantized.refinement;
     component.integersReused = false;
     component.uv = std::move(quantized.uv);
     return true;
   }
 
-  /// Integers with room round the places of the failure and for the vertices that found no star to return to; round the
-  /// places of the failure alone, where there are no such integers.
-  bool leaveRoom(Component& component, const EmbedResult& embedded, std::vector<Index>& watched,
-    const ProgressCallback& progress)
-  {
-    const Mesh& mesh = component.part.mesh;
-    const std::vector<Index> wide =
-      join(cornerVertices(mesh, findNotPositive(mesh, component.uv)), embedded.failedAt);
-    return changeIntegers(component, wide, embedded.failedFaces, watched, progress) ||
-      (wide != embedded.failedAt &&
-        changeIntegers(component, embedded.failedAt, embedded.failedFaces, watched, progress));
-  }
-
-  /// Where no map with these integers is positive, others are tried. Where another component has no map, all that
+  /// Where no map with these integers is positive, others are tried, once. Where another component has no map, all that
   /// counts is where this one would fail, too: one try tells.
   void embedOne(Component& component, const ProgressCallback& progress)
   {
     const MeshPart& part = component.part;
-    std::vector<Index> watched;
-    for (int tried = 1;; ++tried)
+    for (bool isOther = false;; isOther = true)
     {
       EmbedOptions embedOptions;
       embedOptions.edgeLength = options_.edgeLength;
@@ -565,12 +551,11 @@ private:
       }
       if (embedded.status.ok())
       {
-        countTryLed(Try::OtherIntegers, watched.empty() ? 0 : 1);
+        countTryLed(Try::OtherIntegers, isOther ? 1 : 0);
         component.uv = std::move(embedded.uv);
         return;
       }
-      if (failures() > 0 || tried == kMostEmbeddings ||
-        !leaveRoom(component, embedded, watched, progress))
+      if (failures() > 0 || isOther || !leaveRoom(component, embedded, progress))
       {
         component.isTriedOnce = failures() > 0;
         component.fail(embedded.status, std::move(embedded.uv),

@@ -39,8 +39,7 @@ constexpr std::size_t kMostUntanglingSteps = 250;
 enum class Energy
 {
   Shape,  ///< whichever way triangles are turned; where fewer defects are left
-  Turned, ///< as those of the coarse map, which keep the rotation of their references; the same
-  Polish  ///< the first one from a map without defects; where it has none afterwards
+  Turned ///< as those of the coarse map, which keep the rotation of their references; the same
 };
 
 /// Counts what a try has made where that is used, and says whether it is.
@@ -72,7 +71,6 @@ private:
   bool embedWhole();
   bool embedTurned();
   bool embedFrom(const UntangleProblem& problem, const Eigen::VectorXd& start, Energy energy);
-  void embedShapes();
 
   const Mesh& mesh_;
   std::vector<FixedVec2>& uv_;
@@ -194,22 +192,7 @@ bool PatchMender::embedTurned()
   }
   problems().guardCurves(rotations, nearness, problem);
   countTry(Try::TurnedReferences);
-  const bool improved =
-    hasLed(Try::TurnedReferences, embedFrom(problem, fitReferences(problem), Energy::Turned));
-  if (improved && patch_.countDefects() == 0)
-  {
-    // From a valid map no vertex changes its winding.
-    embedShapes();
-  }
-  return improved;
-}
-
-/// The surface's shapes, from a valid map.
-void PatchMender::embedShapes()
-{
-  countTry(Try::ShapesAgain);
-  hasLed(Try::ShapesAgain,
-    embedFrom(problems().make(), Eigen::VectorXd::Zero(patch_.unknowns()), Energy::Polish));
+  return hasLed(Try::TurnedReferences, embedFrom(problem, fitReferences(problem), Energy::Turned));
 }
 
 bool PatchMender::embedFrom(
@@ -230,7 +213,7 @@ bool PatchMender::embedFrom(
   work_ += patch_.faces().size() * static_cast<std::size_t>(result.steps);
   patch_.applyDisplacements(result.y);
   const std::size_t after = patch_.countDefects();
-  if (result.y.allFinite() && (energy == Energy::Polish ? after == 0 : after < before))
+  if (result.y.allFinite() && after < before)
   {
     return true;
   }
