@@ -4,12 +4,11 @@
 
 #include "Base/Parallel.h"
 #include "Mesh/Distance.h"
+#include "Mesh/FaceSpread.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <utility>
 
@@ -87,46 +86,17 @@ private:
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue_;
 };
 
-/// A face that a spreading front may enter next: distance, face, source.
-using Front = std::pair<double, std::pair<Index, Index>>;
-
-/// Lets sources (entry i of `source` is a face) spread over the surface, nearest first, through the half-edges that
-/// `mayCross` to faces whose middle is within `reach` of the source's. #F: the source that each face is reached from,
-/// or kInvalidIndex.
+/// Lets faces spread within `reach` of their middles; for each face of the mesh the place of its source among them.
 template <typename Predicate>
 std::vector<Index> spread(
   const Mesh& mesh, const std::vector<Index>& source, double reach, const Predicate& mayCross)
 {
-  std::vector<Index> reached(mesh.faceCount(), kInvalidIndex);
-  std::priority_queue<Front, std::vector<Front>, std::greater<Front>> queue;
-  for (Index i = 0; i < source.size(); ++i)
+  std::vector<SpreadStart> starts;
+  for (const Index f : source)
   {
-    queue.push({ 0, { source[i], i } });
+    starts.push_back({ f, mesh.middleOfFace(f), reach });
   }
-  while (!queue.empty())
-  {
-    const auto [face, from] = queue.top().second;
-    queue.pop();
-    if (reached[face] != kInvalidIndex)
-    {
-      continue;
-    }
-    reached[face] = from;
-    const Vector3 start = mesh.middleOfFace(source[from]);
-    for (Index h = 3 * face; h < 3 * face + 3; ++h)
-    {
-      const Index g = mesh.isBoundary(h) ? kInvalidIndex : Mesh::face(mesh.twin[h]);
-      if (g != kInvalidIndex && reached[g] == kInvalidIndex && mayCross(h))
-      {
-        const double distance = (mesh.middleOfFace(g) - start).norm();
-        if (distance <= reach)
-        {
-          queue.push({ distance, { g, from } });
-        }
-      }
-    }
-  }
-  return reached;
+  return spreadOverFaces(mesh, starts, mayCross);
 }
 
 /// The box of all guided faces, a little larger.

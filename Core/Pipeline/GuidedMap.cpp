@@ -4,13 +4,9 @@
 
 #include "Base/Progress.h"
 #include "GridMap/RelaxMap.h"
+#include "Mesh/FaceSpread.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
-
-#include <algorithm>
-#include <functional>
-#include <queue>
-#include <tuple>
 
 namespace quadrille
 {
@@ -45,13 +41,6 @@ std::vector<std::uint8_t> farFromGuides(const Level& level)
   }
   return far;
 }
-
-/// Where a guide begins to spread: a corner of a guided face of the level.
-struct GuideStart
-{
-  Index vertex = kInvalidIndex; ///< of the finest mesh
-  Index face = kInvalidIndex;   ///< of the level
-};
 
 } // namespace
 
@@ -94,51 +83,28 @@ std::vector<FaceGuide> guidesRoundRegions(const Mesh& fine, const Level& level, 
     return result;
   }
   const std::vector<Index> outgoing = outgoingHalfEdges(fine);
-  std::vector<GuideStart> starts;
-  std::vector<Index> reachedFrom(fine.faceCount(), kInvalidIndex);
-  using Entry = std::tuple<double, Index, Index>; // distance, face, start
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-  const auto offer = [&](Index f, Index start)
-  {
-    const Index v = starts[start].vertex;
-    const double distance = (fine.middleOfFace(f) - fine.position[v]).norm();
-    if (reachedFrom[f] == kInvalidIndex && distance <= edgeLength * sizeAt(fine, v))
-    {
-      queue.push({ distance, f, start });
-    }
-  };
+  std::vector<SpreadStart> starts; // the faces round the corners of guided faces
+  std::vector<Index> levelFace;    // of each of these
   for (Index h = 0; h < level.mesh.halfEdgeCount(); ++h)
   {
     if (!level.guides[Mesh::face(h)].isFree())
     {
-      const auto start = static_cast<Index>(starts.size());
-      starts.push_back({ level.fineVertex[level.mesh.origin[h]], Mesh::face(h) });
-      forEachInFan(
-        fine, outgoing[starts.back().vertex], [&](Index side) { offer(Mesh::face(side), start); });
+      const Index v = level.fineVertex[level.mesh.origin[h]];
+      forEachInFan(fine, outgoing[v],
+        [&](Index side)
+        {
+          starts.push_back({ Mesh::face(side), fine.position[v], edgeLength * sizeAt(fine, v) });
+          levelFace.push_back(Mesh::face(h));
+        });
     }
   }
-  while (!queue.empty())
-  {
-    const auto [distance, face, start] = queue.top();
-    queue.pop();
-    if (reachedFrom[face] != kInvalidIndex)
-    {
-      continue;
-    }
-    reachedFrom[face] = start;
-    for (Index h = 3 * face; h < 3 * face + 3; ++h)
-    {
-      if (!fine.isConstrained(h))
-      {
-        offer(Mesh::face(fine.twin[h]), start);
-      }
-    }
-  }
+  const std::vector<Index> reached =
+    spreadOverFaces(fine, starts, [&](Index h) { return !fine.isConstrained(h); });
   for (Index f = 0; f < fine.faceCount(); ++f)
   {
-    if (reachedFrom[f] != kInvalidIndex)
+    if (reached[f] != kInvalidIndex)
     {
-      result.push_back({ f, level.guides[starts[reachedFrom[f]].face] });
+      result.push_back({ f, level.guides[levelFace[reached[f]]] });
     }
   }
   return result;
