@@ -112,7 +112,7 @@ const Hierarchy& Levels::make(const PlannedSurface& surface, const HierarchyOpti
   const ResultKey wanted = phase2Key(surface.key, options);
   if (held_->made != wanted)
   {
-    held_->made = 0; // what is stopped on the way is not made
+    held_->made = held_->guided = 0; // what is stopped on the way is not made
     held_->levels->setSizes(surface->mesh.sizing);
     const Hierarchy& hierarchy = held_->levels->update(options);
     held_->made = wanted;
