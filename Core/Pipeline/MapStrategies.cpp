@@ -14,6 +14,8 @@ namespace quadrille
 namespace
 {
 
+/// Faces are filled at once where a map fails at more vertices: that has a cause that more freedom does not take away.
+constexpr std::size_t kFewFailed = 10;
 /// Rings of intermediate vertices that are kept round a vertex that the map failed at.
 constexpr int kFreedomRings = 2;
 
@@ -76,7 +78,7 @@ std::optional<Plan> moreFreedom(const AttemptFailure& failure)
   }
   const bool hasFaces = keepsFeatures(*failure.surface) &&
     isCutAtFaces(*run.surface.surface, run.options, failure.history);
-  if (hasFaces)
+  if (hasFaces && (times > 0 || failedAt.size() > kFewFailed))
   {
     return std::nullopt;
   }
