@@ -275,7 +275,8 @@ private:
       symmetric = runSymmetric(leftOut);
     }
     RemeshResult made = symmetric ? std::move(*symmetric) : runQuads();
-    data_.keepSurface(made.framed, made.frame);
+    // Where faces were filled, their triangles are beside those of the others and not joined to them.
+    data_.keepSurface(made.withoutMap.empty() ? made.framed : nullptr, made.frame);
     wasStopped_ = made.status.code == StatusCode::Cancelled || !made.stopped.empty();
     for (const StageRecord& record : made.stages)
     {

@@ -6,6 +6,7 @@
 #include "Mesh/Distance.h"
 #include "StaggeredTube.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -149,6 +150,17 @@ TEST_F(ConstraintsOnFilledFaces, ALineThroughThemIsNotMet)
     wordOn(session_.add(Connection{ { { x, 0.5, 0 }, { x, 0, z }, { x, -0.5, 0 } } }));
   EXPECT_FALSE(word.isMet);
   EXPECT_NE(word.reason.find("has no map"), std::string::npos) << word.reason;
+}
+
+/// The surface under such quads is joined of parts, and no way leads from one to another one on it.
+TEST_F(ConstraintsOnFilledFaces, AStrokeFromThemToOthersFindsItsWay)
+{
+  const Vector3& from = inFilled_.front();
+  const Vector3& to = *std::min_element(inRest_.begin(), inRest_.end(),
+    [&](const Vector3& a, const Vector3& b) { return (a - from).norm() < (b - from).norm(); });
+  const ConstraintReport word = wordOn(session_.add(GuideStroke{ { from, to } }));
+  EXPECT_EQ(word.reason.find("different parts"), std::string::npos) << word.reason;
+  EXPECT_TRUE(word.deviation) << word.reason; // it was measured in the quads
 }
 
 } // namespace
