@@ -38,7 +38,7 @@ constexpr std::size_t kMostUntanglingSteps = 250;
 /// What the untangler minimizes, and when what comes of it is taken.
 enum class Energy
 {
-  Shape,  ///< whichever way triangles are turned; where fewer defects are left
+  Shape, ///< whichever way triangles are turned; where fewer defects are left
   Turned ///< as those of the coarse map, which keep the rotation of their references; the same
 };
 
