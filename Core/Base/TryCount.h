@@ -40,6 +40,7 @@ enum class Try : std::uint8_t
   MoreWeight,
   RequestsFollowed,
   EarlierIntegers,
+  FinerScale,
   Breakout,
   OtherField,
   ValencesForSizes,

@@ -34,6 +34,8 @@ namespace
 {
 
 constexpr int kMaximumScalings = 4;
+/// How many integers are tried where embedding fails; three were enough on most parts.
+constexpr int kMostEmbeddings = 6;
 /// The number of quads is accepted when it is this close to the target (relative).
 constexpr double kCountTolerance = 0.06;
 /// However many blocks there are, the other components have this part of the quads that they would have alone.
@@ -512,31 +514,33 @@ private:
 
   /// Integers with room round the places where the present ones fail, and for the vertices that found no star to return
   /// to. False, and nothing is changed, where there are no others.
-  bool leaveRoom(
-    Component& component, const EmbedResult& embedded, const ProgressCallback& progress)
+  bool leaveRoom(Component& component, const EmbedResult& embedded, std::vector<Index>& watched,
+    const ProgressCallback& progress)
   {
     countTry(Try::OtherIntegers);
     const Mesh& mesh = component.part.mesh;
-    const std::vector<Index> watched =
-      join(cornerVertices(mesh, findNotPositive(mesh, component.uv)), embedded.failedAt);
+    std::vector<Index> all = join(
+      watched, join(cornerVertices(mesh, findNotPositive(mesh, component.uv)), embedded.failedAt));
     QuantizeResult quantized = madeOrTold(component.part, embedded.failedFaces,
-      [&] { return quantize(component, component.startUv, watched, progress); });
+      [&] { return quantize(component, component.startUv, all, progress); });
     if (!quantized.status.ok() || quantized.uv == component.uv)
     {
       return false;
     }
+    watched = std::move(all);
     component.refinement = quantized.refinement;
     component.integersReused = false;
     component.uv = std::move(quantized.uv);
     return true;
   }
 
-  /// Where no map with these integers is positive, others are tried, once. Where another component has no map, all that
+  /// Where no map with these integers is positive, others are tried. Where another component has no map, all that
   /// counts is where this one would fail, too: one try tells.
   void embedOne(Component& component, const ProgressCallback& progress)
   {
     const MeshPart& part = component.part;
-    for (bool isOther = false;; isOther = true)
+    std::vector<Index> watched;
+    for (int tried = 1;; ++tried)
     {
       EmbedOptions embedOptions;
       embedOptions.edgeLength = options_.edgeLength;
@@ -551,11 +555,12 @@ private:
       }
       if (embedded.status.ok())
       {
-        countTryLed(Try::OtherIntegers, isOther ? 1 : 0);
+        countTryLed(Try::OtherIntegers, watched.empty() ? 0 : 1);
         component.uv = std::move(embedded.uv);
         return;
       }
-      if (failures() > 0 || isOther || !leaveRoom(component, embedded, progress))
+      if (failures() > 0 || tried == kMostEmbeddings ||
+        !leaveRoom(component, embedded, watched, progress))
       {
         component.isTriedOnce = failures() > 0;
         component.fail(embedded.status, std::move(embedded.uv),

@@ -235,9 +235,9 @@ std::vector<FixedVec2> IntegerMap::residues() const
   return result;
 }
 
-FixedVec2 IntegerMap::nearestAllowed(Index h, FixedVec2 residue) const
+FixedVec2 IntegerMap::nearestAllowed(Index h, double scale, FixedVec2 residue) const
 {
-  const Vector2 p = double(kGrain) * wanted_[h];
+  const Vector2 p = scale * double(kGrain) * wanted_[h];
   if (axis_[h] == kOnlyU)
   {
     return { nearestWithSign(p.x(), residue.u), 0 };
@@ -255,7 +255,7 @@ FixedVec2 IntegerMap::nearestAllowed(Index h, FixedVec2 residue) const
                                             : FixedVec2{ 0, nearestWithSign(p.y(), residue.v) };
 }
 
-void IntegerMap::round()
+void IntegerMap::round(double scale)
 {
   const std::vector<FixedVec2> residue = residues();
   for (const Index f : faces_)
@@ -265,7 +265,7 @@ void IntegerMap::round()
       const Index g = mesh_.twin[h];
       if (g == kInvalidIndex || h < g)
       {
-        q_[h] = nearestAllowed(h, residue[Mesh::next(h)] - residue[h]);
+        q_[h] = nearestAllowed(h, scale, residue[Mesh::next(h)] - residue[h]);
       }
       if (g != kInvalidIndex && h < g)
       {

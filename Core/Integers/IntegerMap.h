@@ -46,8 +46,8 @@ public:
   /// In quads.
   Vector2 wanted(Index h) const { return wanted_[h]; }
 
-  /// Rounds what is wanted; no half-edge becomes zero. Triangles need not close.
-  void round();
+  /// Rounds `scale` times what is wanted; no half-edge becomes zero. Triangles need not close.
+  void round(double scale);
   /// The displacements of another map along the same half-edges, to the nearest sixteenth; uv: #H. Triangles close
   /// where its transitions are whole. False, with nothing to use, when an edge of a curve runs the wrong way there.
   bool adopt(const std::vector<FixedVec2>& uv);
@@ -142,7 +142,7 @@ private:
   bool hasCornerToSpare(Index h) const;
   std::vector<FixedVec2> residues() const;
   FixedVec2 residueOf(Index v) const;
-  FixedVec2 nearestAllowed(Index h, FixedVec2 residue) const;
+  FixedVec2 nearestAllowed(Index h, double scale, FixedVec2 residue) const;
   template <typename Visit>
   void visitStar(Index v, FixedVec2 e, Visit visit) const;
   template <typename VectorOf>

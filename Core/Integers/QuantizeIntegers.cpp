@@ -28,6 +28,8 @@ constexpr int kMostIntegerSweeps = 100;
 /// Steps of searches that a repair may take, a face; those of rounded integers that succeeded took up to 4,100, others
 /// more than 11,000.
 constexpr std::size_t kMostIntegerSteps = 5000;
+/// What fails at two scales in full fails at the others, too.
+constexpr std::size_t kMostStepsOfScales = 2 * kMostIntegerSteps;
 /// Where integers were valid little is broken, and where they fail others are there still.
 constexpr std::size_t kMostStepsOfValid = 2000;
 /// Rounds of improvement with a new triangulation each.
@@ -577,11 +579,31 @@ IntegerStart repairValidIntegers(IntegerMap& map)
   return repaired(map, kMostStepsOfValid);
 }
 
-IntegerStart findValidIntegers(IntegerMap& map, const ProgressCallback& progress)
+IntegerStart findValidIntegers(
+  IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress)
 {
-  report(progress, 0.2, "rounding to whole numbers");
-  map.round();
-  return repaired(map, kMostIntegerSteps);
+  IntegerStart start;
+  for (start.scale = scale; start.scale <= maximumScale; start.scale *= std::sqrt(2.0))
+  {
+    report(progress, 0.2, "rounding at scale " + std::to_string(start.scale));
+    if (start.scale > scale)
+    {
+      countTry(Try::FinerScale);
+    }
+    map.round(start.scale);
+    const IntegerStart atScale = repaired(map, kMostIntegerSteps);
+    start.steps += atScale.steps;
+    start.valid = atScale.valid;
+    if (start.valid && start.scale > scale)
+    {
+      countTryLed(Try::FinerScale);
+    }
+    if (start.valid || start.steps > kMostStepsOfScales * map.faces().size())
+    {
+      return start;
+    }
+  }
+  return start;
 }
 
 std::vector<Index> brokenFaces(const IntegerMap& map)

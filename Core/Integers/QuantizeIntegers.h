@@ -16,11 +16,13 @@ namespace quadrille
 struct IntegerStart
 {
   bool valid = false;
+  double scale = 1;      ///< of the wanted displacements, at which the map became valid
   std::size_t steps = 0; ///< StripSearch::work of closing and repairs
 };
 
-/// Rounds what is wanted, closes triangles and repairs; not valid where that does not succeed.
-IntegerStart findValidIntegers(IntegerMap& map, const ProgressCallback& progress);
+/// Rounds, closes and repairs at scales that grow from `scale` by sqrt 2 up to maximumScale until valid.
+IntegerStart findValidIntegers(
+  IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress);
 
 /// Closes and repairs displacements that were valid before the wanted ones or the kept vertices changed; not valid
 /// where that does not succeed.

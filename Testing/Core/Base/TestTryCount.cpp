@@ -36,7 +36,7 @@ TEST(TryCount, EachRowHasANameOfItsOwnInItsRoom)
     EXPECT_FALSE(std::string(row.bound).empty()) << row.name;
   }
   EXPECT_STREQ(tryRow(Try::MoreFreedom).name, "more freedom");
-  EXPECT_STREQ(tryRow(Try::Breakout).room, "integers");
+  EXPECT_STREQ(tryRow(Try::FinerScale).room, "integers");
   EXPECT_STREQ(tryRow(Try::WithoutSymmetry).name, "without the symmetry"); // the last one
 }
 
@@ -58,10 +58,10 @@ TEST(TryCount, AScopeInsideOfAnotherOneTakesItsCountsForItself)
     EXPECT_EQ(takenOf(inner.counts(), Try::Breakout), 2U);
     EXPECT_EQ(ledOf(inner.counts(), Try::Breakout), 1U);
   }
-  countTry(Try::OtherScale);
+  countTry(Try::FinerScale);
   EXPECT_EQ(takenOf(outer.counts(), Try::Breakout), 1U);
   EXPECT_EQ(ledOf(outer.counts(), Try::Breakout), 0U);
-  EXPECT_EQ(takenOf(outer.counts(), Try::OtherScale), 1U);
+  EXPECT_EQ(takenOf(outer.counts(), Try::FinerScale), 1U);
 }
 
 TEST(TryCount, ThreadsOfALoopCountForTheScopeRoundIt)

@@ -163,7 +163,7 @@ TEST(Quantize, IntegersAreClosedPositiveAndWind)
         lockedVertices(c.map.mesh, mesh, integerVertices(c.map.mesh, c.map.field), {});
       decimateInUv(mesh, editor, locked.keep);
       IntegerMap integers(mesh, editor, locked.integer);
-      ASSERT_TRUE(findValidIntegers(integers, {}).valid);
+      ASSERT_TRUE(findValidIntegers(integers, 1, 64, {}).valid);
       EXPECT_TRUE(integers.isValid());
       const double energy = integers.energy();
       improveIntegers(integers, {});
@@ -197,7 +197,7 @@ TEST(Quantize, CurvesAreNeverRunBackwards)
   LockedVertices locked = lockedVertices(map.mesh, mesh, integerVertices(map.mesh, map.field), {});
   decimateInUv(mesh, editor, locked.keep);
   IntegerMap integers(mesh, editor, locked.integer);
-  integers.round();
+  integers.round(1);
   int edges = 0;
   for (const Index f : integers.faces())
   {
@@ -215,6 +215,27 @@ TEST(Quantize, CurvesAreNeverRunBackwards)
     }
   }
   EXPECT_GT(edges, 10);
+}
+
+TEST(Quantize, ShrinksAStartThatIsTooLarge)
+{
+  const SyntheticMap map = staircaseMap(4, 4, 4, 3, 3.3, true, 8);
+  const auto areaFrom = [&](double scale)
+  {
+    UvMesh mesh = UvMesh::from(map.mesh, map.field, map.uv);
+    UvEditor editor(mesh);
+    LockedVertices locked =
+      lockedVertices(map.mesh, mesh, integerVertices(map.mesh, map.field), {});
+    decimateInUv(mesh, editor, locked.keep);
+    IntegerMap integers(mesh, editor, locked.integer);
+    EXPECT_TRUE(findValidIntegers(integers, scale, scale, {}).valid);
+    EXPECT_GT(integers.area(), 0.5 * scale * scale * uvArea(map.uv));
+    improveIntegers(integers, {});
+    EXPECT_TRUE(integers.isValid());
+    return integers.area();
+  };
+  // A local search need not end in the same place; within a fifth of the area it has done its work.
+  EXPECT_NEAR(areaFrom(8) / areaFrom(1), 1, 0.2);
 }
 
 TEST(Quantize, ResultIsWholeAndNearTheWantedSize)
