@@ -512,16 +512,13 @@ private:
     }
   }
 
-  /// Integers with room round the places where the present ones fail, and for the vertices that found no star to return
-  /// to. False, and nothing is changed, where there are no others.
-  bool leaveRoom(Component& component, const EmbedResult& embedded, std::vector<Index>& watched,
-    const ProgressCallback& progress)
+  /// False, and nothing is changed, where there are no others with more watched. failed: where the present ones fail.
+  bool changeIntegers(Component& component, const std::vector<Index>& more,
+    const FailedFaces& failed, std::vector<Index>& watched, const ProgressCallback& progress)
   {
     countTry(Try::OtherIntegers);
-    const Mesh& mesh = component.part.mesh;
-    std::vector<Index> all = join(
-      watched, join(cornerVertices(mesh, findNotPositive(mesh, component.uv)), embedded.failedAt));
-    QuantizeResult quantized = madeOrTold(component.part, embedded.failedFaces,
+    std::vector<Index> all = join(watched, more);
+    QuantizeResult quantized = madeOrTold(component.part, failed,
       [&] { return quantize(component, component.startUv, all, progress); });
     if (!quantized.status.ok() || quantized.uv == component.uv)
     {
@@ -532,6 +529,19 @@ private:
     component.integersReused = false;
     component.uv = std::move(quantized.uv);
     return true;
+  }
+
+  /// Integers with room round the places of the failure and for the vertices that found no star to return to; round the
+  /// places of the failure alone, where there are no such integers.
+  bool leaveRoom(Component& component, const EmbedResult& embedded, std::vector<Index>& watched,
+    const ProgressCallback& progress)
+  {
+    const Mesh& mesh = component.part.mesh;
+    const std::vector<Index> wide =
+      join(cornerVertices(mesh, findNotPositive(mesh, component.uv)), embedded.failedAt);
+    return changeIntegers(component, wide, embedded.failedFaces, watched, progress) ||
+      (wide != embedded.failedAt &&
+        changeIntegers(component, embedded.failedAt, embedded.failedFaces, watched, progress));
   }
 
   /// Where no map with these integers is positive, others are tried. Where another component has no map, all that
