@@ -92,6 +92,7 @@ std::vector<Index> spread(
   const Mesh& mesh, const std::vector<Index>& source, double reach, const Predicate& mayCross)
 {
   std::vector<SpreadStart> starts;
+  starts.reserve(source.size());
   for (const Index f : source)
   {
     starts.push_back({ f, mesh.middleOfFace(f), reach });
