@@ -347,7 +347,7 @@ bool MapRelaxation::check(double bytes, double operations, RelaxResult& result) 
 /// False where it would take too much.
 bool MapRelaxation::makeSolver(RelaxResult& result)
 {
-  // The dissection of many millions of triangles alone takes memory and time.
+  // The ordering of many millions of triangles alone takes memory and time.
   const double faces = mesh_.faceCount();
   if (faces > kManyFaces &&
     !check(kBytesPerFace * faces, kOperationsPerRoot * faces * std::sqrt(faces), result))

@@ -32,8 +32,8 @@ struct RelaxOptions
   double leastGain = 1e-3;
   /// Bytes that may be taken; where more are needed nothing is done and the status says so.
   double maximumBytes = std::numeric_limits<double>::infinity();
-  /// The same for the multiplications of a factorization: by default about 40 s on one thread, a surface of 600,000 to
-  /// 1,500,000 triangles.
+  /// The same for the multiplications of a factorization: by default about 40 s on one thread, a surface of about two
+  /// million triangles.
   double maximumOperations = 2e11;
   /// Directions that the isolines should keep; empty or #F. In a region of them it is one family that keeps them.
   std::vector<Guide> guides;
