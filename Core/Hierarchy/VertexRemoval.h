@@ -58,12 +58,7 @@ public:
   bool gather(Index v);
   int ringSize() const { return ringSize_; }
   Index ringVertex(int i) const { return ring_[index(i)]; }
-  int faceCount() const { return faces_; }
-  bool onCurve() const { return onCurve_; }
   Index vertex() const { return vertex_; }
-  Index slot(int i) const { return slot_[index(i)]; } ///< corner of the vertex in face i
-  /// The first face beyond the curve or border that passes; 0 where there is none.
-  int secondSide() const { return splits() ? curveEnd_ : 0; }
   /// Shortest edge at the vertex; for a curve vertex the shorter one of its two curve edges.
   double shortestEdge() const;
 

@@ -19,13 +19,6 @@ namespace
 
 using namespace quadrille::test;
 
-Vector3 middleOf(const Mesh& mesh, Index f)
-{
-  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
-           mesh.position[mesh.origin[3 * f + 2]]) /
-    3;
-}
-
 std::vector<FaceGuide> guidesWhere(const Mesh& mesh,
   const std::function<bool(const Vector3&)>& wants,
   const std::function<Vector3(const Vector3&)>& direction)
@@ -33,7 +26,7 @@ std::vector<FaceGuide> guidesWhere(const Mesh& mesh,
   std::vector<FaceGuide> guides;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
-    const Vector3 p = middleOf(mesh, f);
+    const Vector3 p = mesh.middleOfFace(f);
     const Vector3 n = faceNormal(mesh, f);
     if (wants(p))
     {
@@ -78,7 +71,8 @@ TEST(GuideRegions, StrokesLeadBesideThemAndWideRegionsDoNot)
   constexpr double kAFace = 1.5; // give or take a triangle
   for (const double halfWidth : { 0.5, 15.0 })
   {
-    const auto away = [&](Index f) { return std::abs(middleOf(mesh, f).y() - 30.5) - halfWidth; };
+    const auto away = [&](Index f)
+    { return std::abs(mesh.middleOfFace(f).y() - 30.5) - halfWidth; };
     const std::vector<FaceGuide> guides = guidesWhere(
       mesh, [&](const Vector3& p) { return std::abs(p.y() - 30.5) < halfWidth; },
       [](const Vector3&) { return kSlanted; });
