@@ -20,7 +20,6 @@ namespace
 /// What the smallest block of a component may need, over the quads that its area is worth, so that maps are tried: with
 /// the handles that are left, and before any was cut. Small components of few handles become blocks anyway.
 constexpr double kMostBlockWorth = 3;
-constexpr double kMostBlockBefore = 8;
 constexpr double kQuadsOfFewHandles = 64;
 /// From 512 handles on, that of twice as many before any was cut, the exact equations of a map take minutes: only where
 /// the area is worth the block.
@@ -53,8 +52,7 @@ Status judgeHandles(const SizedSurface& sized, bool isCut, int threads, ResultSt
       const double block = component.block;
       return block > kQuadsOfFewHandles &&
         (isCut ? block > kMostBlockWorth * worth || block > kLargeBlock
-               : block > kMostBlockBefore * worth ||
-              (block > kLargeBlockBefore && block > kWorthOfLargeBefore * worth));
+               : block > kLargeBlockBefore && block > kWorthOfLargeBefore * worth);
     });
   if (found == small.each.end())
   {
