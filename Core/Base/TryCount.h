@@ -43,6 +43,7 @@ enum class Try : std::uint8_t
   FinerScale,
   Breakout,
   OtherField,
+  TurnsForStrips,
   ValencesForSizes,
   WiderPatch,
   TurnedReferences,

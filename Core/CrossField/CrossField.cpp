@@ -6,6 +6,7 @@
 #include "Base/Refuse.h"
 #include "Base/TryCount.h"
 #include "CrossField/FieldTopology.h"
+#include "CrossField/PatchStrips.h"
 #include "CrossField/PowerField.h"
 #include "CrossField/SizeCones.h"
 #include "CrossField/TurnRepair.h"
@@ -13,6 +14,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace quadrille
@@ -228,36 +230,98 @@ double quadsOf(const FieldTopology& topology, const CrossFieldOptions& options)
   return topology.totalArea / (options.targetEdgeLength * options.targetEdgeLength);
 }
 
-// Where sizes are asked for: irregular vertices with which quads can have them, if turns can be moved so.
-void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
-  const FieldConstraints& constraints, TurnRepairInput input, const CrossFieldOptions& options,
-  Solution& solution)
+// What turns of a solution are changed with.
+struct Change
 {
-  const std::vector<int> targets = valencesForSizes(mesh, topology, solution.turns,
-    options.targetValences, { options.localSizes, quadsOf(topology, options) });
-  if (targets.empty())
+  const Mesh& mesh;
+  const FieldTopology& topology;
+  const FieldConstraints& constraints;
+  const CrossFieldOptions& options;
+  TurnRepairInput input; // of its repair, without what the solution has
+};
+
+// The turns, and jumps, of the solution with other ones prescribed; none where they cannot be had.
+std::optional<Solution> withTurns(
+  const Change& change, const TurnPrescription& prescription, const Solution& solution)
+{
+  const RepairData data(
+    change.mesh, change.topology, change.constraints, solution.angle, solution.jump);
+  TurnRepairInput input = change.input;
+  if (!checkPrescription(change.mesh, change.topology, prescription, data.turns, *input.held).ok())
   {
-    return;
-  }
-  const RepairData data(mesh, topology, constraints, solution.angle, solution.jump);
-  const TurnPrescription prescription =
-    prescribeTurns(mesh, topology, targets, options.sectorTurns);
-  if (!checkPrescription(mesh, topology, prescription, data.turns, *input.held).ok())
-  {
-    return;
+    return std::nullopt;
   }
   input.residual = &data.residual;
   input.turns = &data.turns;
   input.prescription = &prescription;
-  countTry(Try::ValencesForSizes);
   const TurnRepairResult repair = repairTurns(input);
-  if (repair.complete &&
-    sizeError(mesh, topology, repair.turns) <
-      (options.localSizes ? 1 : kWorthwhileError) * sizeError(mesh, topology, solution.turns))
+  if (!repair.complete)
+  {
+    return std::nullopt;
+  }
+  Solution other = solution;
+  applyShift(change.topology, repair.shift, other.jump);
+  other.turns = repair.turns;
+  return other;
+}
+
+// Where sides of patches would have no length in any map: other turns at the corners of these patches, if all sides
+// have some then. Returns the turns of sectors that are prescribed from then on.
+std::vector<int> giveStrips(const Change& change, Solution& solution)
+{
+  const CrossFieldOptions& options = change.options;
+  const auto stripsOf = [&](const Solution& of)
+  {
+    return stripTurns({ change.mesh, change.topology, of.turns,
+      matchings(change.mesh, change.constraints.alignment, of.jump), change.constraints.alignment,
+      *change.input.natural, options.targetEdgeLength, options.sectorTurns });
+  };
+  std::optional<Solution> led = solution;
+  std::vector<int> sectors = options.sectorTurns;
+  StripTurns strips = stripsOf(solution);
+  while (!strips.sectorTurns.empty())
+  {
+    countTry(Try::TurnsForStrips);
+    sectors = strips.sectorTurns;
+    led = withTurns(
+      change, prescribeTurns(change.mesh, change.topology, options.targetValences, sectors), *led);
+    // Irregular vertices inside of patches may have moved with the turns.
+    const std::size_t before = strips.without;
+    strips = led ? stripsOf(*led) : StripTurns{};
+    if (led && strips.without == 0)
+    {
+      countTryLed(Try::TurnsForStrips);
+      solution = std::move(*led);
+      return sectors;
+    }
+    if (strips.without >= before)
+    {
+      break;
+    }
+  }
+  return options.sectorTurns;
+}
+
+// Where sizes are asked for: irregular vertices with which quads can have them, if turns can be moved so.
+void adaptToSizes(const Change& change, const std::vector<int>& sectorTurns, Solution& solution)
+{
+  const CrossFieldOptions& options = change.options;
+  const std::vector<int> targets = valencesForSizes(change.mesh, change.topology, solution.turns,
+    options.targetValences, { options.localSizes, quadsOf(change.topology, options) });
+  if (targets.empty())
+  {
+    return;
+  }
+  countTry(Try::ValencesForSizes);
+  std::optional<Solution> other =
+    withTurns(change, prescribeTurns(change.mesh, change.topology, targets, sectorTurns), solution);
+  if (other &&
+    sizeError(change.mesh, change.topology, other->turns) <
+      (options.localSizes ? 1 : kWorthwhileError) *
+        sizeError(change.mesh, change.topology, solution.turns))
   {
     countTryLed(Try::ValencesForSizes);
-    applyShift(topology, repair.shift, solution.jump);
-    solution.turns = repair.turns;
+    solution = std::move(*other);
   }
 }
 
@@ -333,12 +397,16 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
     countTryLed(Try::OtherField);
   }
 
-  if (!mesh.sizing.empty() && best.status.ok())
+  const Change change{ mesh, topology, constraints, options,
+    { &topology, nullptr, nullptr, &natural, length, nullptr, &stiffness, &held,
+      &irregularPrice } };
+  if (best.status.ok())
   {
-    adaptToSizes(mesh, topology, constraints,
-      { &topology, nullptr, nullptr, &natural, length, nullptr, &stiffness, &held,
-        &irregularPrice },
-      options, best);
+    const std::vector<int> sectors = giveStrips(change, best);
+    if (!mesh.sizing.empty())
+    {
+      adaptToSizes(change, sectors, best);
+    }
   }
   const RepairData data(mesh, topology, constraints, best.angle, best.jump);
   TurnRepairResult complete{ std::vector<int>(topology.edges.size(), 0), best.turns };
