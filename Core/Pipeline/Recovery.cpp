@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Recovery.h"
 
+#include "Base/Lists.h"
 #include "Pipeline/Strategies.h"
 
 #include <algorithm>
@@ -73,6 +74,21 @@ std::optional<Plan> firstOffer(const Strategies& strategies, AttemptFailure& fai
   return std::nullopt;
 }
 
+/// Where a map, or without any quads these, have failed.
+std::vector<Vector3> placesOf(const Attempt& attempt, const Mesh& surface)
+{
+  if (!attempt.map->status.ok())
+  {
+    return attempt.map->failedPlaces;
+  }
+  std::vector<Vector3> places = positionsOf(surface, attempt.map->transfer.defectVertices);
+  if (attempt.quads && !attempt.quads->status.ok())
+  {
+    append(places, positionsOf(surface, failedVertices(attempt, surface)));
+  }
+  return places;
+}
+
 /// None where no other round would be better.
 std::optional<AttemptFailure> failureOfRound(RunContext& run, const History& history)
 {
@@ -85,9 +101,7 @@ std::optional<AttemptFailure> failureOfRound(RunContext& run, const History& his
     return std::nullopt;
   }
   return AttemptFailure{ run, history, attempt, withPlan(run.surface, attempt.plan),
-    mapped ? positionsOf(run.surface->mesh, attempt.map->transfer.defectVertices)
-           : attempt.map->failedPlaces,
-    !hasQuads, 0 };
+    placesOf(attempt, run.surface->mesh), !hasQuads, 0 };
 }
 
 } // namespace

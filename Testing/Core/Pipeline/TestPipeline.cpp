@@ -555,7 +555,6 @@ TEST(Pipeline, FeaturesThatLeaveNoRoomStayWhetherAskedForOrNot)
   options.quads = 2500;
   const RemeshResult detected = remesh(*wheel, options);
   EXPECT_TRUE(detected.status.ok()) << detected.status.message;
-  EXPECT_TRUE(tells(detected, "between sharp edges")) << "no notice";
   // The work of the run may end before the map on the surface has no fold any more.
   EXPECT_LE(invertedQuads(detected.quads.points, detected.quads.quads).size(), 3U)
     << detected.certificate.text();
@@ -586,7 +585,6 @@ TEST(Pipeline, FeaturesThatLeaveNoRoomStayWhetherAskedForOrNot)
   }
   const RemeshResult filled = remesh(asked, options);
   ASSERT_TRUE(filled.status.ok()) << filled.status.message;
-  EXPECT_TRUE(tells(filled, "between sharp edges"));
   EXPECT_EQ(topologyOf(filled.quads).euler, -20);
   EXPECT_EQ(topologyOf(filled.quads).boundaryEdges, 0U);
 }

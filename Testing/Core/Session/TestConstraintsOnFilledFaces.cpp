@@ -91,16 +91,15 @@ TEST_F(ConstraintsOnFilledFaces, AValenceIsMetWhereThereIsAMap)
   const ConstraintReport word = wordOn(session_.add(ValenceAt{ inRest_.front(), 3 }));
   EXPECT_TRUE(word.isMet) << word.reason;
   EXPECT_LT(word.deviation, 1e-3);
-  EXPECT_EQ(filled().size(), before);
+  EXPECT_LE(filled().size(), before);
 }
 
-TEST_F(ConstraintsOnFilledFaces, AValenceIsNotMetWhereThereIsNone)
+// A strip of quads may leave a patch with an irregular vertex over any side.
+TEST_F(ConstraintsOnFilledFaces, AnIrregularVertexInOneGivesItAMap)
 {
-  const std::size_t before = filled().size();
   const ConstraintReport word = wordOn(session_.add(ValenceAt{ inFilled_.front(), 5 }));
-  EXPECT_FALSE(word.isMet);
-  EXPECT_FALSE(word.reason.empty());
-  EXPECT_LE(filled().size(), before);
+  EXPECT_TRUE(word.isMet) << word.reason;
+  EXPECT_TRUE(filled().empty());
 }
 
 TEST_F(ConstraintsOnFilledFaces, OperationsLeaveTheFacesThatHaveNoMap)
