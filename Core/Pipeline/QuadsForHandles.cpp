@@ -17,8 +17,8 @@ namespace quadrille
 namespace
 {
 
-/// What the smallest block of a component may need, over the quads that its area is worth, so that maps are tried: with
-/// the handles that are left, and before any was cut. Small components of few handles become blocks anyway.
+/// What the smallest block of a component may need, over the quads that its area is worth, so that maps are tried with
+/// the handles that are left. Small components of few handles become blocks anyway.
 constexpr double kMostBlockWorth = 3;
 constexpr double kQuadsOfFewHandles = 64;
 /// From 512 handles on, that of twice as many before any was cut, the exact equations of a map take minutes: only where
