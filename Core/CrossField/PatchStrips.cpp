@@ -171,14 +171,10 @@ private:
     }
   }
 
+  /// The sector at its end begins with it.
   Index nextOnLoop(Index h) const
   {
-    Index g = Mesh::next(h);
-    while (!mesh_.isConstrained(g))
-    {
-      g = Mesh::next(mesh_.twin[g]);
-    }
-    return g;
+    return input_.topology.fans[input_.topology.fanOfCorner[Mesh::next(h)]].first;
   }
 
   void findLoops()
