@@ -27,6 +27,7 @@ struct PatchLoop
   Index patch = 0;
   std::vector<Index> halfEdges; ///< each ends where the next one begins
   std::vector<Index> corners;   ///< which of these begin at a corner
+  std::vector<double> before;   ///< the length of those before each
   double length = 0;
 };
 
@@ -197,6 +198,7 @@ private:
           sides_.push_back(h);
         }
         loop.halfEdges.push_back(h);
+        loop.before.push_back(loop.length);
         loop.length += input_.topology.edgeLength[h];
       }
       if (loop.corners.empty())
@@ -212,7 +214,7 @@ private:
   void findFreePatches()
   {
     std::vector<int> sum(isFree_.size(), 0);
-    std::vector<int> loops(isFree_.size(), 0);
+    loopsOf_.assign(isFree_.size(), 0);
     const std::vector<Fan>& fans = input_.topology.fans;
     for (std::size_t i = 0; i < fans.size(); ++i)
     {
@@ -224,9 +226,8 @@ private:
         [&](int before, Index h) { return before + 2 - turnsOf(h); });
       isFree_[loop.patch] |= turning % 4 != 0 ? 1 : 0;
       sum[loop.patch] += turning;
-      ++loops[loop.patch];
+      ++loopsOf_[loop.patch];
     }
-    loopsOf_ = std::move(loops);
     for (Index p = 0; p < isFree_.size(); ++p)
     {
       isFree_[p] |= sum[p] != 4 * (2 - loopsOf_[p]) ? 1 : 0;
@@ -364,11 +365,7 @@ private:
   std::optional<double> costOf(const TurnMove& move) const
   {
     const PatchLoop& loop = loops_[move.loop];
-    double between = 0;
-    for (Index i = move.from; i != move.to; i = i + 1 < loop.halfEdges.size() ? i + 1 : 0)
-    {
-      between += input_.topology.edgeLength[loop.halfEdges[i]];
-    }
+    const double between = std::abs(loop.before[move.to] - loop.before[move.from]);
     const bool isShort = std::min(between, loop.length - between) <= input_.length;
     const auto from = costOf(loop.halfEdges[move.from], -move.by, isShort);
     const auto to = costOf(loop.halfEdges[move.to], move.by, isShort);

@@ -3,9 +3,8 @@
 /// Whether curves between patches can have quads along them. Features and boundaries cut a surface into patches, whose
 /// sides are their parts between corners. A strip of quads that comes into a patch over one side leaves it over one
 /// that runs the other way in the map. Where a patch has irregular vertices, or a loop of its boundary turns, it may
-/// leave over any. A side that no strip closes over has no length in any map with these turns, however it is computed:
-/// that is all that a system of linear equations tells of them, each of which has two sides at most with the signs 1
-/// and -1.
+/// leave over any. A side that no strip closes over has no length in any map with these turns, however it is computed.
+/// Nor do the equations of patches tell any more, as each side is in two of them at most, with the signs 1 and -1.
 ///
 ///     +---<---+        a strip comes in over the side below, which runs along u with the patch on its left,
 ///     |   :   |        and leaves over the one above, which runs against u

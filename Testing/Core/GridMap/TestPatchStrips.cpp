@@ -50,17 +50,13 @@ struct Mapped
 
 Mapped mapOf(const Mesh& mesh)
 {
-  TryCounts counts;
+  const TryScope scope;
+  GridMapOptions options;
+  options.edgeLength = 0.25;
+  options.targetQuads = 200;
   Mapped mapped;
-  {
-    TryScope scope;
-    GridMapOptions options;
-    options.edgeLength = 0.25;
-    options.targetQuads = 200;
-    mapped.map = computeGridMap(mesh, options);
-    counts = scope.counts();
-  }
-  mapped.tries = counts.taken[static_cast<std::size_t>(Try::TurnsForStrips)];
+  mapped.map = computeGridMap(mesh, options);
+  mapped.tries = scope.counts().taken[static_cast<std::size_t>(Try::TurnsForStrips)];
   return mapped;
 }
 
