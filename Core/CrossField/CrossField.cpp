@@ -8,6 +8,7 @@
 #include "CrossField/FieldTopology.h"
 #include "CrossField/PatchStrips.h"
 #include "CrossField/PowerField.h"
+#include "CrossField/SideLengths.h"
 #include "CrossField/SizeCones.h"
 #include "CrossField/TurnRepair.h"
 #include "CrossField/Turns.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace quadrille
 {
@@ -265,41 +267,51 @@ std::optional<Solution> withTurns(
   return other;
 }
 
-// Where sides of patches would have no length in any map: other turns at the corners of these patches, if all sides
-// have some then. Returns the turns of sectors that are prescribed from then on.
-std::vector<int> giveStrips(const Change& change, Solution& solution)
+// Where sides of patches would have no length in any map, or one far from their own: other turns at the corners of
+// these patches, in components whose sides all have some then. Returns the turns of sectors that are prescribed from
+// then on.
+std::vector<int> turnPatches(const Change& change, Solution& solution)
 {
   const CrossFieldOptions& options = change.options;
-  const auto stripsOf = [&](const Solution& of)
+  const auto sidesOf = [&](const Solution& of, const std::vector<std::int8_t>& matching)
   {
-    return stripTurns({ change.mesh, change.topology, of.turns,
-      matchings(change.mesh, change.constraints.alignment, of.jump), change.constraints.alignment,
-      *change.input.natural, options.targetEdgeLength, options.sectorTurns });
+    return PatchSides({ change.mesh, change.topology, of.turns, matching,
+      change.constraints.alignment, *change.input.natural, options.targetEdgeLength,
+      options.sectorTurns, options.targetValences });
   };
-  std::optional<Solution> led = solution;
-  std::vector<int> sectors = options.sectorTurns;
-  StripTurns strips = stripsOf(solution);
-  while (!strips.sectorTurns.empty())
+  const std::vector<std::int8_t> matching =
+    matchings(change.mesh, change.constraints.alignment, solution.jump);
+  PatchSides sides = sidesOf(solution, matching);
+  PatchStrips strips(sides);
+  const std::size_t without = strips.find();
+  if (strips.lessen() > 0)
   {
-    countTry(Try::TurnsForStrips);
-    sectors = strips.sectorTurns;
-    led = withTurns(
-      change, prescribeTurns(change.mesh, change.topology, options.targetValences, sectors), *led);
-    // Irregular vertices inside of patches may have moved with the turns.
-    const std::size_t before = strips.without;
-    strips = led ? stripsOf(*led) : StripTurns{};
-    if (led && strips.without == 0)
-    {
-      countTryLed(Try::TurnsForStrips);
-      solution = std::move(*led);
-      return sectors;
-    }
-    if (strips.without >= before)
-    {
-      break;
-    }
+    sides.leaveOut(strips.patchesWithout());
   }
-  return options.sectorTurns;
+  SideLengths(sides, strips).evenOut();
+  if (!sides.isAnyChanged())
+  {
+    return options.sectorTurns;
+  }
+  countTry(Try::TurnsForStrips);
+  std::vector<int> sectors = sides.sectorTurns();
+  std::optional<Solution> led = withTurns(change,
+    prescribeTurns(change.mesh, change.topology, sides.targetValences(), sectors), solution);
+  if (!led)
+  {
+    return options.sectorTurns;
+  }
+  // In a patch of several loops the flow decides how these lie to each other.
+  const std::vector<std::int8_t> matchingLed =
+    matchings(change.mesh, change.constraints.alignment, led->jump);
+  PatchSides sidesLed = sidesOf(*led, matchingLed);
+  if (PatchStrips(sidesLed).find() > without)
+  {
+    return options.sectorTurns;
+  }
+  countTryLed(Try::TurnsForStrips);
+  solution = std::move(*led);
+  return sectors;
 }
 
 // Where sizes are asked for: irregular vertices with which quads can have them, if turns can be moved so.
@@ -402,7 +414,7 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
       &irregularPrice } };
   if (best.status.ok())
   {
-    const std::vector<int> sectors = giveStrips(change, best);
+    const std::vector<int> sectors = turnPatches(change, best);
     if (!mesh.sizing.empty())
     {
       adaptToSizes(change, sectors, best);

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Whether curves between patches can have quads along them. Features and boundaries cut a surface into patches, whose
-/// sides are their parts between corners. A strip of quads that comes into a patch over one side leaves it over one
-/// that runs the other way in the map. Where a patch has irregular vertices, or a loop of its boundary turns, it may
-/// leave over any. A side that no strip closes over has no length in any map with these turns, however it is computed.
-/// Nor do the equations of patches tell any more, as each side is in two of them at most, with the signs 1 and -1.
+/// Whether curves between patches can have quads along them. A strip of quads that comes into a patch over one side
+/// leaves it over one that runs the other way in the map. Where a patch has irregular vertices, or a loop of its
+/// boundary turns, it may leave over any. A side that no strip closes over has no length in any map with these turns,
+/// however it is computed. Nor do the equations of patches tell any more, as each side is in two of them at most, with
+/// the signs 1 and -1.
 ///
 ///     +---<---+        a strip comes in over the side below, which runs along u with the patch on its left,
 ///     |   :   |        and leaves over the one above, which runs against u
@@ -14,7 +14,8 @@
 /// it may go on anywhere, and for what is outside. So all of it lies in one strongly connected component.
 #pragma once
 
-#include "CrossField/FieldTopology.h"
+#include "Base/StrongComponents.h"
+#include "CrossField/PatchSides.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,29 +24,46 @@
 namespace quadrille
 {
 
-/// A field, and what the choice of other turns goes by.
-struct PatchStripsInput
+class PatchStrips
 {
-  const Mesh& mesh;
-  const FieldTopology& topology;
-  const std::vector<int>& turns;             ///< per fan
-  const std::vector<std::int8_t>& matching;  ///< #H, see CrossField
-  const std::vector<std::int8_t>& alignment; ///< #H, see CrossField
-  const std::vector<double>& natural;        ///< per fan, see naturalTurns
-  double length = 0;                         ///< s
-  /// Empty or #H: those that are not 0 stay, see CrossFieldOptions.
-  const std::vector<int>& sectorTurns;
-};
+public:
+  explicit PatchStrips(PatchSides& sides) : sides_(sides), mesh_(sides.input().mesh) {}
 
-struct StripTurns
-{
-  std::size_t without = 0; ///< sides that no strip closes over
-  /// #H, as CrossFieldOptions::sectorTurns: turns with which no side is without one; empty where none were found.
-  std::vector<int> sectorTurns;
-};
+  /// The number of sides without a strip, with turns as they are.
+  std::size_t find();
+  /// Moves turns until there is none or no single move lessens their number, those first that make the turns of corners
+  /// least unnatural. Returns the number.
+  std::size_t lessen();
+  /// The patches of sides without a strip, as find() left it.
+  std::vector<Index> patchesWithout() const;
 
-/// Quarter turns move from one corner of a patch to another, those first that make the turns of corners least
-/// unnatural.
-StripTurns stripTurns(const PatchStripsInput& input);
+private:
+  /// Nodes that the arcs of a node lead to.
+  struct NextNodes
+  {
+    const Index* first = nullptr;
+    Index count = 0;
+
+    Index size() const { return count; }
+    Index operator[](Index i) const { return first[i]; }
+  };
+
+  std::size_t lessenOnce(std::size_t without);
+  Index nodeOf(Index h, int turned) const;
+  Index nodeBeyond(Index h) const;
+  template <typename Visit>
+  void forArcs(const Visit& visit) const;
+  NextNodes nextOf(Index node) const
+  {
+    return { next_.data() + first_[node], first_[node + 1] - first_[node] };
+  }
+  bool hasStrip(Index h) const;
+  std::vector<std::uint8_t> reached() const;
+
+  PatchSides& sides_;
+  const Mesh& mesh_;
+  std::vector<Index> first_, next_; ///< arcs by node
+  StrongComponents<NextNodes> components_;
+};
 
 } // namespace quadrille
