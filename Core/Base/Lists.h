@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -66,6 +67,15 @@ std::vector<Index> idsWhere(std::size_t count, const Predicate& predicate)
   return ids;
 }
 
+/// Copies of the elements that the predicate holds for, in their order.
+template <typename List, typename Predicate>
+std::vector<typename List::value_type> elementsWhere(const List& list, const Predicate& predicate)
+{
+  std::vector<typename List::value_type> elements;
+  std::copy_if(list.begin(), list.end(), std::back_inserter(elements), predicate);
+  return elements;
+}
+
 /// "1, 2, 3" of at most so many of the list, with ", ..." where there are more. textOf: of an element.
 template <typename List, typename TextOf>
 std::string joined(const List& list, std::size_t most, const TextOf& textOf)
@@ -76,6 +86,19 @@ std::string joined(const List& list, std::size_t most, const TextOf& textOf)
     text += (i > 0 ? ", " : "") + textOf(list[i]);
   }
   return text + (list.size() > most ? ", ..." : "");
+}
+
+/// Adds "3 things" to a list in words; nothing where there are none.
+inline void appendCount(std::string& text, std::size_t count, const char* things)
+{
+  if (count > 0)
+  {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + things;
+  }
+}
+inline void appendCount(std::string& text, std::size_t count, const char* one, const char* many)
+{
+  appendCount(text, count, count == 1 ? one : many);
 }
 
 /// Items by a key, all in one array: those of key k are [begin(k), end(k)), in the order in which they came.

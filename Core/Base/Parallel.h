@@ -48,27 +48,39 @@ std::vector<Part> parallelParts(Id count, std::size_t chunkSize, int threads, co
   return parts;
 }
 
-/// The ids below count for which select(id) holds, ascending, whatever the number of threads.
-template <typename Id, typename Select>
-std::vector<Id> parallelSelect(Id count, std::size_t chunkSize, int threads, const Select& select)
+/// Calls body(id, list) for all ids below count; what they add to the list, in their order, whatever the number of
+/// threads.
+template <typename Item, typename Id, typename Body>
+std::vector<Item> parallelGather(Id count, std::size_t chunkSize, int threads, const Body& body)
 {
-  const auto parts = parallelParts<std::vector<Id>>(count, chunkSize, threads,
-    [&](Id begin, Id end, std::vector<Id>& part)
+  const auto parts = parallelParts<std::vector<Item>>(count, chunkSize, threads,
+    [&](Id begin, Id end, std::vector<Item>& part)
     {
       for (Id i = begin; i < end; ++i)
       {
-        if (select(i))
-        {
-          part.push_back(i);
-        }
+        body(i, part);
       }
     });
-  std::vector<Id> all;
-  for (const std::vector<Id>& part : parts)
+  std::vector<Item> all;
+  for (const std::vector<Item>& part : parts)
   {
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;
+}
+
+/// The ids below count for which select(id) holds, ascending, whatever the number of threads.
+template <typename Id, typename Select>
+std::vector<Id> parallelSelect(Id count, std::size_t chunkSize, int threads, const Select& select)
+{
+  return parallelGather<Id>(count, chunkSize, threads,
+    [&](Id i, std::vector<Id>& selected)
+    {
+      if (select(i))
+      {
+        selected.push_back(i);
+      }
+    });
 }
 
 /// The number of ids below count for which counts(id) holds.

@@ -47,10 +47,9 @@ std::uint64_t hashVector(const Array& values, int threads)
 std::uint64_t contentHash(const void* bytes, std::size_t count, int threads)
 {
   const auto* first = static_cast<const unsigned char*>(bytes);
-  std::vector<std::uint64_t> parts((count + kChunkBytes - 1) / kChunkBytes);
-  parallelFor(count, kChunkBytes, threads,
-    [&](std::size_t begin, std::size_t end)
-    { parts[begin / kChunkBytes] = hashBytes(first + begin, end - begin); });
+  const auto parts = parallelParts<std::uint64_t>(count, kChunkBytes, threads,
+    [&](std::size_t begin, std::size_t end, std::uint64_t& part)
+    { part = hashBytes(first + begin, end - begin); });
   std::uint64_t hash = mix(0, count);
   for (const std::uint64_t part : parts)
   {
@@ -86,29 +85,12 @@ std::uint64_t contentHash(const SurfaceInput& input, int threads)
 
 std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& input, int threads)
 {
-  // By name, so that an array that is new has to be put on one side or the other here.
-  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, isDesigned,
-    detectedFeatures, guideDirections, guideWeights, guideOrders, targetValences, sizing,
-    sizingOrders, curvatures, drawn, curves, regularElsewhere, held, regularOnFeatures, withoutMap,
-    seams, straight, faceOrder, precision] = input;
-  static_cast<void>(points);
-  static_cast<void>(polygonOffsets);
-  static_cast<void>(polygonPoints);
-  static_cast<void>(guideDirections);
-  static_cast<void>(guideWeights);
-  static_cast<void>(guideOrders);
-  static_cast<void>(targetValences);
-  static_cast<void>(sizingOrders); // of what is drawn, which has a key of its own
-  static_cast<void>(drawn);
-  static_cast<void>(curves);
-  static_cast<void>(regularElsewhere);
-  static_cast<void>(held);
-  static_cast<void>(regularOnFeatures);
-  static_cast<void>(withoutMap);
-  static_cast<void>(seams);
-  static_cast<void>(straight);
-  static_cast<void>(faceOrder);
-  static_cast<void>(precision);
+  // By name, so that an array that is new has to be looked at here: what is drawn, and the orders of sizes with it, has a
+  // key of its own, and so have requests.
+  [[maybe_unused]] const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds,
+    isDesigned, detectedFeatures, guideDirections, guideWeights, guideOrders, targetValences,
+    sizing, sizingOrders, curvatures, drawn, curves, regularElsewhere, held, regularOnFeatures,
+    withoutMap, seams, straight, faceOrder, precision] = input;
   std::uint64_t hash = mix(geometry.points, geometry.polygonOffsets);
   hash = mix(hash, geometry.polygonPoints);
   hash = mix(hash, hashVector(featureEdges, threads));

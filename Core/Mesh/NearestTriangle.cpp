@@ -3,7 +3,6 @@
 #include "Mesh/NearestTriangle.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace quadrille

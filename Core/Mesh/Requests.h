@@ -261,6 +261,32 @@ struct DrawnRequests
   }
 };
 
+/// Calls place(Vector3&) for each place of the curves, seams and straight parts that are asked for, and
+/// direction(Vector3&) for each direction.
+template <typename Requests, typename PlaceVisitor, typename DirectionVisitor>
+void visitPaths(Requests& requests, PlaceVisitor place, DirectionVisitor direction)
+{
+  for (CurveRequest& curve : requests.curves)
+  {
+    std::for_each(curve.points.begin(), curve.points.end(), place);
+  }
+  for (SeamRequest& seam : requests.seams)
+  {
+    for (Vector3* p : { &seam.from, &seam.to, &seam.imageFrom, &seam.imageTo })
+    {
+      place(*p);
+    }
+  }
+  for (StraightRequest& part : requests.straight)
+  {
+    for (Vector3* p : { &part.from, &part.via, &part.to })
+    {
+      place(*p);
+    }
+    direction(part.outward);
+  }
+}
+
 /// What a prepared surface was asked for. The finest level does not depend on it, so it is not part of its hash.
 struct SurfaceRequests
 {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Surface.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Mesh/FlatSources.h"
 
@@ -11,15 +12,6 @@ namespace quadrille
 {
 namespace
 {
-
-void append(std::string& text, std::size_t count, const char* singular, const char* plural)
-{
-  if (count > 0)
-  {
-    text +=
-      (text.empty() ? "" : ", ") + std::to_string(count) + " " + (count == 1 ? singular : plural);
-  }
-}
 
 /// A flipped face of which nobody knows what was before reaches beyond the triangle that it names.
 void keepInside(std::array<double, 3>& weights)
@@ -45,21 +37,22 @@ void keepInside(std::array<double, 3>& weights)
 std::string RepairReport::text() const
 {
   std::string text;
-  append(text, triangulatedPolygons, "polygon triangulated", "polygons triangulated");
-  append(text, mergedPoints, "coincident point merged", "coincident points merged");
-  append(text, degenerateFaces, "degenerate face removed", "degenerate faces removed");
-  append(text, flippedCaps, "vertex put onto the edge it lies on",
+  appendCount(text, triangulatedPolygons, "polygon triangulated", "polygons triangulated");
+  appendCount(text, mergedPoints, "coincident point merged", "coincident points merged");
+  appendCount(text, degenerateFaces, "degenerate face removed", "degenerate faces removed");
+  appendCount(text, flippedCaps, "vertex put onto the edge it lies on",
     "vertices put onto the edges they lie on");
-  append(text, duplicateFaces, "duplicate face removed", "duplicate faces removed");
-  append(text, isolatedPoints, "isolated point dropped", "isolated points dropped");
-  append(text, nonManifoldEdges, "non-manifold edge split", "non-manifold edges split");
-  append(text, nonManifoldVertices, "non-manifold vertex split", "non-manifold vertices split");
-  append(text, reorientedFaces, "face reoriented", "faces reoriented");
-  append(text, removedComponents, "component too small to mesh removed",
+  appendCount(text, duplicateFaces, "duplicate face removed", "duplicate faces removed");
+  appendCount(text, isolatedPoints, "isolated point dropped", "isolated points dropped");
+  appendCount(text, nonManifoldEdges, "non-manifold edge split", "non-manifold edges split");
+  appendCount(
+    text, nonManifoldVertices, "non-manifold vertex split", "non-manifold vertices split");
+  appendCount(text, reorientedFaces, "face reoriented", "faces reoriented");
+  appendCount(text, removedComponents, "component too small to mesh removed",
     "components too small to mesh removed");
-  append(text, refinedFaces, "large face refined", "large faces refined");
-  append(text, closedHandles, "small handle cut and closed", "small handles cut and closed");
-  append(text, filledHoles, "small hole filled", "small holes filled");
+  appendCount(text, refinedFaces, "large face refined", "large faces refined");
+  appendCount(text, closedHandles, "small handle cut and closed", "small handles cut and closed");
+  appendCount(text, filledHoles, "small hole filled", "small holes filled");
   return text;
 }
 

@@ -103,6 +103,20 @@ void joinInner(Mesh& mesh, Index h, Index g)
   mesh.flags.edit()[h] = mesh.flags.edit()[g] = 0;
 }
 
+/// The edge of h, from a to b, comes to join the corners c and d opposite to it: of three new edges in each face two are
+/// old ones, and the new one is no feature. Corners and half-edges as in flipEdge().
+void turnDiagonal(Mesh& mesh, Index h)
+{
+  const Index g = mesh.twin[h];
+  const Index n = Mesh::next(h), p = Mesh::previous(h);
+  const Index ng = Mesh::next(g), pg = Mesh::previous(g);
+  moveEdge(mesh, ng, h); // a -> d
+  moveEdge(mesh, n, g);  // b -> c
+  joinInner(mesh, n, ng);
+  mesh.origin.edit()[n] = mesh.origin[pg]; // d -> c
+  mesh.origin.edit()[ng] = mesh.origin[p]; // c -> d
+}
+
 Weights mean(const Weights& a, const Weights& b)
 {
   return { (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2 };
@@ -426,25 +440,18 @@ bool mayFlip(const Mesh& mesh, Index h)
     std::find(neighbours.begin(), neighbours.end(), d) == neighbours.end();
 }
 
+/// before: h a->b, n b->c, p c->a; g b->a, ng a->d, pg d->b. after: h a->d, n d->c, p c->a; g b->c, ng c->d, pg d->b.
 void flipEdge(Mesh& mesh, Index h)
 {
-  // before: h a->b, n b->c, p c->a; g b->a, ng a->d, pg d->b. after: h a->d, n d->c, p c->a; g b->c, ng c->d, pg d->b.
-  const Index g = mesh.twin[h];
-  const Index n = Mesh::next(h), p = Mesh::previous(h);
-  const Index ng = Mesh::next(g), pg = Mesh::previous(g);
+  const Index n = Mesh::next(h), ng = Mesh::next(mesh.twin[h]);
   const std::uint8_t inner = mesh.flags[h];
-  moveEdge(mesh, ng, h); // a -> d
-  moveEdge(mesh, n, g);  // b -> c
-  joinInner(mesh, n, ng);
+  turnDiagonal(mesh, h);
   mesh.flags.edit()[n] = mesh.flags.edit()[ng] = inner;
-  mesh.origin.edit()[n] = mesh.origin[pg]; // d -> c
-  mesh.origin.edit()[ng] = mesh.origin[p]; // c -> d
 }
 
 void flipSliver(PreparedSurface& surface, Index h)
 {
-  // before: h a->b, n b->c, p c->a; g b->a, ng a->d, pg d->b. after: (a, d, c) and (b, c, d).
-  Mesh& mesh = surface.mesh;
+  Mesh& mesh = surface.mesh; // corners as in flipEdge()
   const Index g = mesh.twin[h];
   const Index n = Mesh::next(h), p = Mesh::previous(h);
   const Index ng = Mesh::next(g), pg = Mesh::previous(g);
@@ -464,11 +471,7 @@ void flipSliver(PreparedSurface& surface, Index h)
   const Index pointC = pointsF[p % 3];
   const Index pointD = pointsK[pg % 3];
 
-  moveEdge(mesh, ng, h); // a -> d
-  moveEdge(mesh, n, g);  // b -> c
-  joinInner(mesh, n, ng);
-  mesh.origin.edit()[n] = mesh.origin[pg]; // d -> c
-  mesh.origin.edit()[ng] = mesh.origin[p]; // c -> d
+  turnDiagonal(mesh, h);
   pointsF[n % 3] = pointD;
   pointsK[ng % 3] = pointC;
   surface.sourcePolygon.edit()[Mesh::face(h)] = surface.sourcePolygon[Mesh::face(g)];

@@ -6,7 +6,6 @@
 #include "Base/Parallel.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace quadrille
 {

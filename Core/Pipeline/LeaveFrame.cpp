@@ -124,28 +124,9 @@ void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector
     }
     stroke.radius *= frame.unit;
   }
-  for (CurveRequest& curve : surface.curves)
-  {
-    for (Vector3& p : curve.points)
-    {
-      p = frame.toUser(p);
-    }
-  }
-  for (SeamRequest& seam : surface.seams)
-  {
-    for (Vector3* p : { &seam.from, &seam.to, &seam.imageFrom, &seam.imageTo })
-    {
-      *p = frame.toUser(*p);
-    }
-  }
-  for (StraightRequest& part : surface.straight)
-  {
-    for (Vector3* p : { &part.from, &part.via, &part.to })
-    {
-      *p = frame.toUser(*p);
-    }
-    part.outward = frame.mirrored(part.outward);
-  }
+  visitPaths(
+    surface, [&](Vector3& p) { p = frame.toUser(p); },
+    [&](Vector3& direction) { direction = frame.mirrored(direction); });
   if (frame.reversed)
   {
     reverseFaces(surface);

@@ -4,7 +4,6 @@
 /// other way round, corners 0 1 2 become 0 2 1 everywhere and u and v change places, so that maps stay positive.
 #pragma once
 
-#include "Extraction/Extraction.h"
 #include "Pipeline/Pipeline.h"
 #include "Prepare/Frame.h"
 

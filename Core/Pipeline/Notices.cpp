@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Notices.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Quads/QuadShape.h"
 #include "Quads/SurfaceWalk.h"
@@ -21,14 +22,6 @@ namespace
 constexpr double kTellRefinement = 1.1;
 /// Nearer points lie on the surface for all that a user would see; in edge lengths.
 constexpr double kTellOffSurface = 0.01;
-
-void appendCount(std::string& text, std::size_t count, const char* one, const char* many)
-{
-  if (count > 0)
-  {
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + (count == 1 ? one : many);
-  }
-}
 
 } // namespace
 
@@ -79,18 +72,18 @@ std::string anisotropyNotice(double share, double limit)
 std::string defectsText(const Certificate& certificate)
 {
   std::string text;
-  appendCount(text, certificate.notPositive, " triangle is turned over or flat",
-    " triangles are turned over or flat");
-  appendCount(text, certificate.wrongTurns, " vertex has another valence than the field",
-    " vertices have another valence than the field");
-  appendCount(text, certificate.seamResiduals, " edge has two images that do not match",
-    " edges have two images that do not match");
-  appendCount(text, certificate.offIsolines, " feature or boundary edge is on no grid line",
-    " feature or boundary edges are on no grid line");
-  appendCount(text, certificate.offIntegers, " irregular vertex or corner is on no grid point",
-    " irregular vertices or corners are on no grid point");
-  appendCount(text, certificate.fractionalTransitions, " edge has a shift that is not whole",
-    " edges have shifts that are not whole");
+  appendCount(text, certificate.notPositive, "triangle is turned over or flat",
+    "triangles are turned over or flat");
+  appendCount(text, certificate.wrongTurns, "vertex has another valence than the field",
+    "vertices have another valence than the field");
+  appendCount(text, certificate.seamResiduals, "edge has two images that do not match",
+    "edges have two images that do not match");
+  appendCount(text, certificate.offIsolines, "feature or boundary edge is on no grid line",
+    "feature or boundary edges are on no grid line");
+  appendCount(text, certificate.offIntegers, "irregular vertex or corner is on no grid point",
+    "irregular vertices or corners are on no grid point");
+  appendCount(text, certificate.fractionalTransitions, "edge has a shift that is not whole",
+    "edges have shifts that are not whole");
   return text;
 }
 
@@ -141,11 +134,8 @@ std::string mapNotice(const Mesh& mesh, const Certificate& certificate)
     " triangles)";
   if (certificate.notPositive > 0 && !certificate.worstFaces.empty())
   {
-    const Index h = 3 * certificate.worstFaces.front();
-    const Vector3 middle = (mesh.position[mesh.origin[h]] + mesh.position[mesh.origin[h + 1]] +
-                             mesh.position[mesh.origin[h + 2]]) /
-      3;
-    text += ", the worst triangle near " + placeText(middle);
+    text +=
+      ", the worst triangle near " + placeText(mesh.middleOfFace(certificate.worstFaces.front()));
   }
   return text +
     "; the quads bridge such places, but may have a poor shape there: more quads or a larger "

@@ -150,28 +150,9 @@ void requestsToFrame(FramedInput& framed)
   }
   framed.input.drawn.visit([&](Vector3& p) { p = frame.fromUser(p); },
     [&](double& length) { length = frame.lengthOf(length); });
-  for (CurveRequest& curve : framed.input.curves)
-  {
-    for (Vector3& p : curve.points)
-    {
-      p = frame.fromUser(p);
-    }
-  }
-  for (SeamRequest& seam : framed.input.seams)
-  {
-    for (Vector3* p : { &seam.from, &seam.to, &seam.imageFrom, &seam.imageTo })
-    {
-      *p = frame.fromUser(*p);
-    }
-  }
-  for (StraightRequest& part : framed.input.straight)
-  {
-    for (Vector3* p : { &part.from, &part.via, &part.to })
-    {
-      *p = frame.fromUser(*p);
-    }
-    part.outward = frame.mirrored(part.outward);
-  }
+  visitPaths(
+    framed.input, [&](Vector3& p) { p = frame.fromUser(p); },
+    [&](Vector3& direction) { direction = frame.mirrored(direction); });
   for (Vector3& place : framed.input.withoutMap)
   {
     place = frame.fromUser(place);
@@ -366,11 +347,6 @@ Vector3 userPositionAt(
   const double last = std::ldexp(place.cwiseAbs().maxCoeff(), -50);
   return (between - place).cwiseAbs().maxCoeff() <= 2 * step + last ? between : place;
 }
-
-} // namespace
-
-namespace
-{
 
 /// Calls put(v, position) for each vertex that has a face, from several threads.
 template <typename Put>

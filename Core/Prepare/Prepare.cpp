@@ -20,7 +20,6 @@
 #include "Requests/Guides.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace quadrille
 {

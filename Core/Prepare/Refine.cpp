@@ -124,29 +124,22 @@ public:
       queue_(limit_)
   {
     findScales(surface, maximumLength, threads);
-    std::vector<std::vector<LongEdge>> found(faces_ / kFacesOfRefinement + 1);
-    parallelFor(faces_, kFacesOfRefinement, threads,
-      [&](std::size_t begin, std::size_t end)
+    const auto longEdges = parallelGather<LongEdge>(faces_, kFacesOfRefinement, threads,
+      [&](Index f, std::vector<LongEdge>& found)
       {
-        for (Index f = static_cast<Index>(begin); f < end; ++f)
+        const std::array<double, 3> lengths = squaredLengths(f);
+        for (Index i = 0; i < 3; ++i)
         {
-          const std::array<double, 3> lengths = squaredLengths(f);
-          for (Index i = 0; i < 3; ++i)
+          // The twin of a boundary half-edge is above all others.
+          if (lengths[i] > limit_ && 3 * f + i < mesh_.twin[3 * f + i])
           {
-            // The twin of a boundary half-edge is above all others.
-            if (lengths[i] > limit_ && 3 * f + i < mesh_.twin[3 * f + i])
-            {
-              found[begin / kFacesOfRefinement].push_back({ lengths[i], 3 * f + i });
-            }
+            found.push_back({ lengths[i], 3 * f + i });
           }
         }
       });
-    for (const std::vector<LongEdge>& edges : found)
+    for (const LongEdge& edge : longEdges)
     {
-      for (const LongEdge& edge : edges)
-      {
-        queue_.push(edge);
-      }
+      queue_.push(edge);
     }
   }
 

@@ -8,7 +8,6 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/SurfaceEdit.h"
-#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <cmath>
