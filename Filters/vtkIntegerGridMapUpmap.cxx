@@ -317,7 +317,7 @@ void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
     options.threads = this->NumberOfThreads;
     options.progress = this->MakeProgress(0.0, 3.3); // the surface is ready at 0.15 of a whole run
     quadrille::SizedSurface sized = quadrille::sizeSurface(input, options);
-    laps.add(sized.stages);
+    laps.add(sized.stages.all());
     made->surface = std::move(*sized.surface);
     held.surface = made;
     quadrille::share(held.surface);

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
-#include <utility>
 
 namespace quadrille
 {
@@ -20,14 +19,7 @@ namespace
 /// Points at one place count as one, or the triangles of a soup were a region each.
 void joinSamePlaces(const SurfaceInput& input, const std::vector<bool>& used, DisjointSets& sets)
 {
-  std::vector<Index> points;
-  for (std::size_t i = 0; i < used.size(); ++i)
-  {
-    if (used[i])
-    {
-      points.push_back(static_cast<Index>(i));
-    }
-  }
+  std::vector<Index> points = idsWhere(used.size(), [&](Index i) { return used[i]; });
   const auto key = [&](Index i)
   {
     const Vector3& p = input.points[i];

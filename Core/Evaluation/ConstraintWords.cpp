@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -18,25 +17,18 @@ namespace quadrille
 namespace
 {
 
-constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 /// A share of a guided region above this is worth a word.
 constexpr double kNotableShare = 0.1;
+
 ConstraintWord worded(const char* kind, std::int64_t source, const ConstraintMeasure& measure)
 {
-  return { kind, source, measure.place, measure.isMet, measure.deviation, measure.deviation95,
-    measure.unit, measure.reason, false };
+  return { measure, kind, source, false };
 }
 
-ConstraintWord unknownWord(
-  const char* kind, std::int64_t source, const char* unit, std::string reason)
+ConstraintWord unknownWord(const char* kind, std::int64_t source, const char* unit,
+  std::string reason, const Vector3& place = Vector3::Zero())
 {
-  ConstraintWord word;
-  word.kind = kind;
-  word.source = source;
-  word.unit = unit;
-  word.deviation = word.deviation95 = kNotMeasured;
-  word.reason = std::move(reason);
-  return word;
+  return worded(kind, source, ConstraintMeasure::unknown(place, unit, std::move(reason)));
 }
 
 class Judge
@@ -65,8 +57,7 @@ public:
   {
     return asked.isUsed
       ? valenceAt(asked.point, asked.place, asked.asked)
-      : placed(unknownWord("valence", asked.point, "edge lengths", "no face uses the point"),
-          asked.place);
+      : unknownWord("valence", asked.point, "edge lengths", "no face uses the point", asked.place);
   }
   ConstraintWord sizes(const std::vector<double>& sizes) const;
   ConstraintWord drawn(std::size_t i)
@@ -80,11 +71,6 @@ public:
 
 private:
   ConstraintWord measured(std::size_t i);
-  static ConstraintWord placed(ConstraintWord word, const Vector3& place)
-  {
-    word.place = place;
-    return word;
-  }
   ConstraintWord guide(const char* kind, std::int64_t source,
     const std::vector<GuidedPlace>& measured, std::optional<std::size_t> stroke);
   ConstraintWord feature(std::int64_t source, const std::vector<std::array<Vector3, 2>>& edges)
@@ -216,61 +202,37 @@ ConstraintWord Judge::sizes(const std::vector<double>& sizes) const
 ConstraintWord Judge::measured(std::size_t i)
 {
   const PlacedConstraint& constraint = asked_.placed[i];
+  const char* const kind = nameOf(constraint.kind);
   const bool isStroke = constraint.kind == ConstraintKind::Stroke;
   const Vector3 place =
     constraint.path.empty() ? Vector3(Vector3::Zero()) : constraint.path.front();
-  if (constraint.kind == ConstraintKind::Valence && !constraint.whyNot.empty())
-  {
-    return placed(
-      unknownWord("valence", constraint.source, "edge lengths", constraint.whyNot), place);
-  }
-  const bool isPlace =
-    constraint.kind == ConstraintKind::Size || constraint.kind == ConstraintKind::Cleared;
-  if ((isPlace || isLine(constraint)) && !constraint.whyNot.empty())
-  {
-    const char* unit = constraint.kind == ConstraintKind::Size ? "factor" : "edge lengths";
-    return placed(
-      unknownWord(nameOf(constraint.kind), constraint.source, unit, constraint.whyNot), place);
-  }
-  if (constraint.kind == ConstraintKind::Valence)
-  {
-    return valenceAt(constraint.source, place, constraint.valence);
-  }
-  if (constraint.kind == ConstraintKind::Size)
-  {
-    return worded(nameOf(constraint.kind), constraint.source,
-      measures_.size(place, constraint.radius, { constraint.factor, asked_.edgeLength }));
-  }
-  if (constraint.kind == ConstraintKind::Cleared)
-  {
-    return worded(nameOf(constraint.kind), constraint.source, measures_.cleared(place));
-  }
-  if (constraint.kind == ConstraintKind::Move && !constraint.whyNot.empty())
-  {
-    return placed(unknownWord("move", constraint.source, "edge lengths", constraint.whyNot), place);
-  }
-  if (constraint.kind == ConstraintKind::Move)
-  {
-    return worded("move", constraint.source,
-      measures_.move(constraint.path.front(), constraint.path.back(), constraint.valence));
-  }
-  if (constraint.kind == ConstraintKind::Connection || constraint.kind == ConstraintKind::Cycle)
-  {
-    return worded(
-      nameOf(constraint.kind), constraint.source, measures_.line(constraint, asked_.curves));
-  }
   if (!constraint.whyNot.empty() || (isStroke && constraint.guided.empty()))
   {
-    return placed(unknownWord(isStroke ? "guide stroke" : "feature curve", constraint.source,
-                    isStroke ? "degrees" : "edge lengths",
-                    constraint.whyNot.empty() ? "it runs over no face" : constraint.whyNot),
-      place);
+    const char* const unit = isStroke           ? "degrees"
+      : constraint.kind == ConstraintKind::Size ? "factor"
+                                                : "edge lengths";
+    return unknownWord(kind, constraint.source, unit,
+      constraint.whyNot.empty() ? "it runs over no face" : constraint.whyNot, place);
   }
-  if (isStroke)
+  switch (constraint.kind)
   {
-    return guide("guide stroke", constraint.source, constraint.guided, i);
+    case ConstraintKind::Stroke:
+      return guide(kind, constraint.source, constraint.guided, i);
+    case ConstraintKind::Valence:
+      return valenceAt(constraint.source, place, constraint.valence);
+    case ConstraintKind::Size:
+      return worded(kind, constraint.source,
+        measures_.size(place, constraint.radius, { constraint.factor, asked_.edgeLength }));
+    case ConstraintKind::Cleared:
+      return worded(kind, constraint.source, measures_.cleared(place));
+    case ConstraintKind::Move:
+      return worded(kind, constraint.source,
+        measures_.move(constraint.path.front(), constraint.path.back(), constraint.valence));
+    case ConstraintKind::Feature:
+      return worded(kind, constraint.source, measures_.curve(constraint.path));
+    default: // connections and cycles
+      return worded(kind, constraint.source, measures_.line(constraint, asked_.curves));
   }
-  return worded("feature curve", constraint.source, measures_.curve(constraint.path));
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Evaluation/ArrayConstraints.h"
+#include "Evaluation/ConstraintMeasures.h"
 #include "Extraction/Extraction.h"
 #include "Integers/CurveIsolines.h"
 #include "Requests/DrawnConstraints.h"
@@ -24,19 +25,12 @@ struct AskedConstraints
   double edgeLength = 0;            ///< of the run, see AskedSize
 };
 
-/// A row of the table. What could not be measured is not a number.
-struct ConstraintWord
+/// A row of the table.
+struct ConstraintWord : ConstraintMeasure
 {
   const char* kind = "";
   std::int64_t source = -1;
-  Vector3 place = Vector3::Zero(); ///< where it deviates most
-  bool isMet = false;
-  double deviation = 0;
-  double deviation95 = 0; ///< the 95th percentile of what deviation is the mean of
-  const char* unit = "";
-  /// Why it is not met, and which of its points lies off the surface; empty: neither.
-  std::string reason;
-  bool isOffSurface = false;
+  bool isOffSurface = false; ///< one of its points; the reason says which
 };
 
 /// mesh: what was made, without quads where there are none. sizes: what was asked for at its points, #points, or empty.

@@ -5,12 +5,9 @@
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <queue>
-#include <string>
 
 namespace quadrille
 {

@@ -3,10 +3,8 @@
 #include "Evaluation/QuadPlaces.h"
 
 #include "Base/Lists.h"
-#include "Requests/Guides.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace quadrille
 {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/QuadQuality.h"
 
-#include "Base/Angles.h"
 #include "Quads/QuadShape.h"
 #include "Quads/QuadTopology.h"
 
@@ -53,15 +52,14 @@ void countValences(const QuadTopology& topology, QuadQuality& quality)
     const bool boundary = topology.onBoundary[p] != 0;
     const int regular = boundary ? 3 : 4;
     ++(boundary ? quality.boundaryValences : quality.interiorValences)[valence];
-    (boundary ? quality.irregularBoundaryVertices : quality.irregularVertices) +=
-      valence != regular ? 1 : 0;
+    quality.irregularVertices += !boundary && valence != regular ? 1 : 0;
     quality.indexSum += regular - valence;
   }
 }
 
 void measureShapes(const std::vector<Vector3>& points, const Quads& quads, QuadQuality& quality)
 {
-  std::vector<double> jacobians, areas, warpings;
+  std::vector<double> jacobians, areas;
   for (const std::array<Index, 4>& q : quads)
   {
     const std::array<Vector3, 4> p{ points[q[0]], points[q[1]], points[q[2]], points[q[3]] };
@@ -69,14 +67,10 @@ void measureShapes(const std::vector<Vector3>& points, const Quads& quads, QuadQ
     quality.nonPositiveJacobians += jacobians.back() <= 0 ? 1 : 0;
     const Vector3 n0 = (p[1] - p[0]).cross(p[2] - p[0]);
     const Vector3 n1 = (p[2] - p[0]).cross(p[3] - p[0]);
-    const Vector3 n2 = (p[1] - p[0]).cross(p[3] - p[0]);
-    const Vector3 n3 = (p[2] - p[1]).cross(p[3] - p[1]);
     areas.push_back((n0.norm() + n1.norm()) / 2);
-    warpings.push_back(std::max(angleBetween(n0, n1), angleBetween(n2, n3)));
   }
   quality.scaledJacobian = summarize(jacobians);
   quality.area = summarize(areas);
-  quality.warping = summarize(warpings);
 }
 
 void measureEdges(const std::vector<Vector3>& points, const Quads& quads,

@@ -33,8 +33,7 @@ struct QuadQuality
 
   std::map<int, std::size_t> interiorValences; ///< number of interior vertices per valence
   std::map<int, std::size_t> boundaryValences;
-  std::size_t irregularVertices = 0;         ///< interior ones with a valence other than 4
-  std::size_t irregularBoundaryVertices = 0; ///< with a valence other than 3
+  std::size_t irregularVertices = 0; ///< interior ones with a valence other than 4
   /// sum over interior vertices of 4 - valence plus over boundary ones of 3 - valence: 4 chi for
   /// every manifold quad mesh.
   long long indexSum = 0;
@@ -42,8 +41,7 @@ struct QuadQuality
   Statistics scaledJacobian;            ///< per quad, see scaledJacobian()
   std::size_t nonPositiveJacobians = 0; ///< quads with scaled Jacobian <= 0
   Statistics edgeLength;
-  Statistics area;    ///< per quad, of its two triangles at the diagonal from corner 0
-  Statistics warping; ///< per quad: largest angle between the normals of two triangles, radians
+  Statistics area; ///< per quad, of its two triangles at the diagonal from corner 0
 };
 
 /// Linear in quads. Throws InvalidInput for a corner beyond the points.

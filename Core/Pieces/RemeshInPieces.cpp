@@ -5,19 +5,16 @@
 #include "Base/Error.h"
 #include "Base/Memory.h"
 #include "Base/Parallel.h"
-#include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 #include "Pieces/PieceCut.h"
 #include "Pieces/PlaceOnSource.h"
 #include "Pieces/SurfacePiece.h"
 #include "Pipeline/Estimate.h"
-#include "Prepare/Repair.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <numeric>
@@ -141,8 +138,7 @@ public:
     parts_.resize(cut_.pieces());
     thinParts();
     laps.lap("thin", source.triangleCount(), countTriangles());
-    const StageRecords ofParts = stagesOfParts();
-    for (const StageRecord& record : ofParts.all())
+    for (const StageRecord& record : stagesOfParts())
     {
       laps.records.add(
         "thin:" + record.stage, record.seconds, record.elementsIn, record.elementsOut);
@@ -153,7 +149,7 @@ public:
     laps.lap("join", result_.joinedTriangles, joined.surface.points.size());
     remeshJoined(joined, estimate);
     tellHandlesOfParts();
-    laps.add(recordsOf(result_.remeshed));
+    laps.add(result_.remeshed.stages);
     if (result_.remeshed.status.ok() && !options.preview)
     {
       carry(joined);
@@ -163,16 +159,6 @@ public:
   }
 
 private:
-  static StageRecords recordsOf(const RemeshResult& made)
-  {
-    StageRecords records;
-    for (const StageRecord& record : made.stages)
-    {
-      records.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
-    }
-    return records;
-  }
-
   PieceOptions pieceOptions() const
   {
     PieceOptions piece = pieceOptionsOf(options_, cut_.area, cut_.diagonal);
@@ -322,7 +308,7 @@ private:
   }
 
   /// Of all pieces together: numbers of elements are their sums, too.
-  StageRecords stagesOfParts() const
+  std::vector<StageRecord> stagesOfParts() const
   {
     std::vector<StageRecord> sums;
     for (const Part& part : parts_)
@@ -337,12 +323,7 @@ private:
         sums[i].elementsOut += records[i].elementsOut;
       }
     }
-    StageRecords all;
-    for (const StageRecord& sum : sums)
-    {
-      all.add(sum.stage, sum.seconds, sum.elementsIn, sum.elementsOut);
-    }
-    return all;
+    return sums;
   }
 
   std::size_t countTriangles() const

@@ -21,9 +21,9 @@ void StageRecords::add(const std::string& stage, double seconds, std::size_t in,
   }
 }
 
-void StageRecords::add(const StageRecords& later)
+void StageRecords::add(const std::vector<StageRecord>& later)
 {
-  for (const StageRecord& record : later.records_)
+  for (const StageRecord& record : later)
   {
     add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
   }

@@ -29,7 +29,8 @@ class StageRecords
 {
 public:
   void add(const std::string& stage, double seconds, std::size_t in, std::size_t out);
-  void add(const StageRecords& later);
+  void add(const std::vector<StageRecord>& later);
+  void add(const StageRecords& later) { add(later.records_); }
   bool has(const std::string& stage) const;
   const std::vector<StageRecord>& all() const { return records_; }
 
@@ -47,7 +48,7 @@ public:
     records.add(stage, watch_.lap(), in, out);
   }
   /// Stages that were recorded elsewhere since then.
-  void add(const StageRecords& stages)
+  void add(const std::vector<StageRecord>& stages)
   {
     records.add(stages);
     watch_.lap();

@@ -3,9 +3,9 @@
 #include "Session/StateRun.h"
 
 #include "Base/Clock.h"
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/TryCount.h"
-#include "Requests/Guides.h"
 #include "Session/ComposedInput.h"
 #include "Session/ConstraintReports.h"
 #include "Session/DrawnRun.h"
@@ -278,10 +278,7 @@ private:
     // Where faces were filled, their triangles are beside those of the others and not joined to them.
     data_.keepSurface(made.withoutMap.empty() ? made.framed : nullptr, made.frame);
     wasStopped_ = made.status.code == StatusCode::Cancelled || !made.stopped.empty();
-    for (const StageRecord& record : made.stages)
-    {
-      stages_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
-    }
+    stages_.add(made.stages);
     ++runs_;
     tries_.addTaken(made.tries);
     return made;
@@ -355,14 +352,8 @@ private:
   std::optional<std::pair<int, std::string>> lastOfShortestFailing(
     const std::map<int, std::string>& leftOut)
   {
-    std::vector<std::size_t> rest;
-    for (std::size_t i = 0; i < state_.constraints.size(); ++i)
-    {
-      if (composed_.parts[i].whyNot.empty())
-      {
-        rest.push_back(i);
-      }
-    }
+    const std::vector<Index> rest = idsWhere(
+      state_.constraints.size(), [&](Index i) { return composed_.parts[i].whyNot.empty(); });
     std::map<int, std::string> without = leftOut;
     const auto last = quadrille::lastOfShortestFailing(rest.size(),
       [&](std::size_t count)

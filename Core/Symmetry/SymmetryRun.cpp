@@ -387,10 +387,7 @@ void SymmetryRun::remeshAndCopy()
   {
     countTry(Try::TwiceTheQuads, more > 1 ? 1 : 0);
     remeshPart(more);
-    for (const StageRecord& record : made_.remeshed.stages)
-    {
-      told_.laps.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
-    }
+    told_.laps.add(made_.remeshed.stages);
     const bool isCrowded = made_.remeshed.status.ok() && !copy();
     const bool hasLed = more > 1 && made_.remeshed.status.ok() && !isCrowded;
     countTryLed(Try::TwiceTheQuads, hasLed ? 1 : 0);
