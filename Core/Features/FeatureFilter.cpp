@@ -486,7 +486,6 @@ std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& po
 std::vector<ClearedFeature> clearFeatures(
   Mesh& mesh, const std::vector<Vector3>& places, double within, double beside)
 {
-  constexpr auto keep = static_cast<std::uint8_t>(~(kFeatureEdge | kRequestedFeature));
   std::vector<ClearedFeature> cleared;
   const std::vector<Index> edges = constrainedEdges(mesh);
   const FeatureGraph graph(mesh, edges);
@@ -529,11 +528,7 @@ std::vector<ClearedFeature> clearFeatures(
   }
   for (const Chain* chain : gone)
   {
-    for (const Index h : chain->halfEdges)
-    {
-      mesh.flags.edit()[h] &= keep;
-      mesh.flags.edit()[mesh.twin[h]] &= keep;
-    }
+    unmarkFeatures(mesh, chain->halfEdges, kFeatureEdge | kRequestedFeature);
   }
   return cleared;
 }
@@ -546,9 +541,9 @@ std::string inEdgeLengths(double length)
   return text.str();
 }
 
-void unmarkFeatures(Mesh& mesh, const std::vector<Index>& halfEdges)
+void unmarkFeatures(Mesh& mesh, const std::vector<Index>& halfEdges, std::uint8_t flags)
 {
-  constexpr auto keep = static_cast<std::uint8_t>(~kFeatureEdge);
+  const auto keep = static_cast<std::uint8_t>(~flags);
   for (const Index h : halfEdges)
   {
     mesh.flags.edit()[h] &= keep;

@@ -55,6 +55,7 @@ std::vector<ClearedFeature> clearFeatures(
 std::string inEdgeLengths(double length);
 
 /// These half-edges and their twins are no features any more.
-void unmarkFeatures(Mesh& mesh, const std::vector<Index>& halfEdges);
+void unmarkFeatures(
+  Mesh& mesh, const std::vector<Index>& halfEdges, std::uint8_t flags = kFeatureEdge);
 
 } // namespace quadrille

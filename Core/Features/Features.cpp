@@ -65,29 +65,19 @@ void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int th
 std::vector<Index> edgesInPlanes(const Mesh& mesh, const FaceNormals& normals, int threads)
 {
   const double least = std::cos(kOnePlane);
-  std::vector<std::vector<Index>> found((mesh.faceCount() + kFeatureChunk - 1) / kFeatureChunk);
-  parallelFor(mesh.faceCount(), kFeatureChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  return parallelGather<Index>(mesh.faceCount(), kFeatureChunk, threads,
+    [&](Index f, std::vector<Index>& found)
     {
-      for (auto f = static_cast<Index>(begin); f < end; ++f)
+      const Vector3 normal = normals.of(f);
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        const Vector3 normal = normals.of(f);
-        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        if (!mesh.isBoundary(h) && h < mesh.twin[h] &&
+          normal.dot(normals.of(Mesh::face(mesh.twin[h]))) > least)
         {
-          if (!mesh.isBoundary(h) && h < mesh.twin[h] &&
-            normal.dot(normals.of(Mesh::face(mesh.twin[h]))) > least)
-          {
-            found[f / kFeatureChunk].push_back(h);
-          }
+          found.push_back(h);
         }
       }
     });
-  std::vector<Index> all;
-  for (const std::vector<Index>& some : found)
-  {
-    append(all, some);
-  }
-  return all;
 }
 
 /// Whether a good part of the area lies in large planes: a tessellation of designed bodies has such, and the noise of a

@@ -7,22 +7,33 @@
 #include "Features/EdgeCurves.h"
 #include "Mesh/Sizing.h"
 
+#include <cstddef>
+
 namespace quadrille
 {
 
+namespace
+{
+
+struct LossText
+{
+  const char* name;
+  const char* whyNot;
+};
+/// In the order of FeatureLoss.
+constexpr LossText kLossTexts[] = {
+  { "unresolved",
+    "not followed: below the smallest detail, as an end, a group or a side of a band" },
+  { "no crease", "not followed: its curve is no crease as a whole" },
+  { "failed map", "not followed: with it there was no map, or no quads" },
+  { "mid-line", "not followed: it lies in the mirror plane, which quads straddle" },
+};
+
+} // namespace
+
 const char* nameOf(FeatureLoss reason)
 {
-  switch (reason)
-  {
-    case FeatureLoss::NoCrease:
-      return "no crease";
-    case FeatureLoss::FailedMap:
-      return "failed map";
-    case FeatureLoss::MidLine:
-      return "mid-line";
-    default:
-      return "unresolved";
-  }
+  return kLossTexts[static_cast<std::size_t>(reason)].name;
 }
 
 std::vector<Index> lostFeatures(const Mesh& mesh, const std::vector<std::uint8_t>& flagsBefore)
@@ -71,17 +82,7 @@ std::vector<GivenUpCurve> givenUpCurves(
 
 const char* whyNotFollowed(FeatureLoss reason)
 {
-  switch (reason)
-  {
-    case FeatureLoss::NoCrease:
-      return "not followed: its curve is no crease as a whole";
-    case FeatureLoss::FailedMap:
-      return "not followed: with it there was no map, or no quads";
-    case FeatureLoss::MidLine:
-      return "not followed: it lies in the mirror plane, which quads straddle";
-    default:
-      return "not followed: below the smallest detail, as an end, a group or a side of a band";
-  }
+  return kLossTexts[static_cast<std::size_t>(reason)].whyNot;
 }
 
 } // namespace quadrille

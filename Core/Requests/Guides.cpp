@@ -3,6 +3,7 @@
 #include "Requests/Guides.h"
 
 #include "Base/Error.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
@@ -13,9 +14,7 @@
 #include "Requests/StrokeGuides.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 namespace quadrille
 {
@@ -106,26 +105,15 @@ std::vector<ValenceRequest> cornerRequests(
   {
     isHeld[held.point] |= held.sectors.empty() ? 1 : 0;
   }
-  std::vector<std::vector<ValenceRequest>> parts(
-    (mesh.halfEdgeCount() + kHalfEdgeChunk - 1) / kHalfEdgeChunk);
-  parallelFor(mesh.halfEdgeCount(), kHalfEdgeChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  auto requests = parallelGather<ValenceRequest>(mesh.halfEdgeCount(), kHalfEdgeChunk, threads,
+    [&](Index h, std::vector<ValenceRequest>& found)
     {
-      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      const Index point = surface.inputPointAt(h);
+      if (point != kInvalidIndex && input.targetValences[point] != 0 && isHeld[point] == 0)
       {
-        const Index point = surface.inputPointAt(h);
-        if (point != kInvalidIndex && input.targetValences[point] != 0 && isHeld[point] == 0)
-        {
-          parts[begin / kHalfEdgeChunk].push_back(
-            { mesh.origin[h], input.targetValences[point], point });
-        }
+        found.push_back({ mesh.origin[h], input.targetValences[point], point });
       }
     });
-  std::vector<ValenceRequest> requests;
-  for (const std::vector<ValenceRequest>& part : parts)
-  {
-    requests.insert(requests.end(), part.begin(), part.end());
-  }
   std::sort(requests.begin(), requests.end(),
     [](const ValenceRequest& a, const ValenceRequest& b)
     { return a.vertex != b.vertex ? a.vertex < b.vertex : a.point < b.point; });
@@ -271,13 +259,11 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)
   const GuideOfFace guideOf(surface);
   const Mesh& mesh = surface.mesh;
   constexpr std::size_t kGuideFaceChunk = kHalfEdgeChunk / 3;
-  std::vector<SurfaceGuides> parts((mesh.faceCount() + kGuideFaceChunk - 1) / kGuideFaceChunk);
-  parallelFor(mesh.faceCount(), kGuideFaceChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  const auto parts = parallelParts<SurfaceGuides>(mesh.faceCount(), kGuideFaceChunk, threads,
+    [&](Index begin, Index end, SurfaceGuides& part)
     {
-      SurfaceGuides& part = parts[begin / kGuideFaceChunk];
       auto stroke = std::lower_bound(surface.strokeFaces.begin(), surface.strokeFaces.end(), begin,
-        [](const StrokeFace& guided, std::size_t face) { return guided.face < face; });
+        [](const StrokeFace& guided, Index face) { return guided.face < face; });
       const auto add = [&](Index f, const Vector3& direction, float weight)
       {
         const Vector3 normal =
@@ -292,7 +278,7 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)
           ++part.dropped;
         }
       };
-      for (Index f = static_cast<Index>(begin); f < end; ++f)
+      for (Index f = begin; f < end; ++f)
       {
         const PolygonGuide* polygon = guideOf(f);
         const bool hasStroke = stroke != surface.strokeFaces.end() && stroke->face == f;
@@ -347,12 +333,9 @@ std::vector<Index> keptVertices(const PreparedSurface& surface)
       vertices.push_back(request.vertex);
     }
   }
-  const std::vector<Index> ends = seamVertices(surface.mesh, surface.seams);
-  vertices.insert(vertices.end(), ends.begin(), ends.end());
-  const std::vector<Index> straight = straightVertices(surface.mesh, surface.straight);
-  vertices.insert(vertices.end(), straight.begin(), straight.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  append(vertices, seamVertices(surface.mesh, surface.seams));
+  append(vertices, straightVertices(surface.mesh, surface.straight));
+  sortUnique(vertices);
   return vertices;
 }
 

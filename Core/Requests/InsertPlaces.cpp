@@ -477,6 +477,17 @@ double sizeBeyond(const std::vector<SizeRequest>& sizes, const Vector3& p, doubl
   return std::min(larger, most);
 }
 
+template <typename Asked>
+std::vector<Vector3> placesAsked(const std::vector<Asked>& requests)
+{
+  std::vector<Vector3> places;
+  for (const Asked& request : requests)
+  {
+    places.push_back(request.place);
+  }
+  return places;
+}
+
 } // namespace
 
 std::vector<std::vector<Vector3>> insertFeatures(PreparedSurface& surface,
@@ -530,13 +541,7 @@ void insertSizes(PreparedSurface& surface, const std::vector<SizeRequest>& sizes
   Mesh& mesh = surface.mesh;
   mesh.sizing.resize(mesh.vertexCount(), 1.0F);
   Insertion insertion(surface, options);
-  std::vector<Vector3> places;
-  places.reserve(sizes.size());
-  for (const SizeRequest& size : sizes)
-  {
-    places.push_back(size.place);
-  }
-  const std::vector<Index> centres = insertion.vertices(places);
+  const std::vector<Index> centres = insertion.vertices(placesAsked(sizes));
   insertion.refineAround(sizes);
   orders.resize(mesh.vertexCount(), 0);
   const std::vector<SizeRequest> passing = sizesThatCount(sizes, centres, orders);
@@ -568,12 +573,7 @@ InsertedValences insertValences(PreparedSurface& surface, const std::vector<Vale
   const InsertionOptions& options)
 {
   Insertion insertion(surface, options);
-  std::vector<Vector3> places;
-  places.reserve(valences.size());
-  for (const ValencePlace& asked : valences)
-  {
-    places.push_back(asked.place);
-  }
+  const std::vector<Vector3> places = placesAsked(valences);
   const std::vector<Index> vertices = insertion.vertices(places);
   InsertedValences inserted;
   inserted.splitConstraint = insertion.splitConstraint();

@@ -6,7 +6,6 @@
 #include "Mesh/Distance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -58,51 +57,41 @@ std::vector<FoundPlace> nearestWithin(
   const Mesh& mesh, const std::vector<Vector3>& points, double slack, int threads)
 {
   const SortedPoints sorted(points);
-  std::vector<std::vector<std::pair<std::size_t, FoundPlace>>> parts(
-    (mesh.faceCount() + kPlaceChunk - 1) / kPlaceChunk);
-  parallelFor(mesh.faceCount(), kPlaceChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  using Candidate = std::pair<std::size_t, FoundPlace>;
+  const auto candidates = parallelGather<Candidate>(mesh.faceCount(), kPlaceChunk, threads,
+    [&](Index f, std::vector<Candidate>& list)
     {
-      for (Index f = static_cast<Index>(begin); f < end; ++f)
+      const Vector3& a = mesh.position[mesh.origin[3 * f]];
+      const Vector3& b = mesh.position[mesh.origin[3 * f + 1]];
+      const Vector3& c = mesh.position[mesh.origin[3 * f + 2]];
+      const Vector3 low = (a.cwiseMin(b).cwiseMin(c).array() - slack).matrix();
+      const Vector3 high = (a.cwiseMax(b).cwiseMax(c).array() + slack).matrix();
+      auto at = std::lower_bound(sorted.x.begin(), sorted.x.end(), low.x());
+      for (; at != sorted.x.end() && *at <= high.x(); ++at)
       {
-        const Vector3& a = mesh.position[mesh.origin[3 * f]];
-        const Vector3& b = mesh.position[mesh.origin[3 * f + 1]];
-        const Vector3& c = mesh.position[mesh.origin[3 * f + 2]];
-        const Vector3 low = (a.cwiseMin(b).cwiseMin(c).array() - slack).matrix();
-        const Vector3 high = (a.cwiseMax(b).cwiseMax(c).array() + slack).matrix();
-        auto at = std::lower_bound(sorted.x.begin(), sorted.x.end(), low.x());
-        for (; at != sorted.x.end() && *at <= high.x(); ++at)
+        const std::size_t i = sorted.order[static_cast<std::size_t>(at - sorted.x.begin())];
+        const Vector3& p = points[i];
+        if ((p.array() >= low.array()).all() && (p.array() <= high.array()).all())
         {
-          const std::size_t i = sorted.order[static_cast<std::size_t>(at - sorted.x.begin())];
-          const Vector3& p = points[i];
-          if ((p.array() >= low.array()).all() && (p.array() <= high.array()).all())
-          {
-            const Vector3 nearest = nearestOnTriangle(p, a, b, c);
-            parts[begin / kPlaceChunk].push_back(
-              { i, { (nearest - p).squaredNorm(), { f, nearest } } });
-          }
+          const Vector3 nearest = nearestOnTriangle(p, a, b, c);
+          list.push_back({ i, { (nearest - p).squaredNorm(), { f, nearest } } });
         }
       }
     });
   std::vector<FoundPlace> best(points.size());
-  for (const auto& part : parts)
+  for (const auto& [i, found] : candidates)
   {
-    for (const auto& [i, found] : part)
-    {
-      best[i] = std::min(best[i], found);
-    }
+    best[i] = std::min(best[i], found);
   }
   return best;
 }
 
 MeshPlace nearestOfAll(const Mesh& mesh, const Vector3& p, int threads)
 {
-  std::vector<FoundPlace> parts((mesh.faceCount() + kPlaceChunk - 1) / kPlaceChunk);
-  parallelFor(mesh.faceCount(), kPlaceChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  const auto parts = parallelParts<FoundPlace>(mesh.faceCount(), kPlaceChunk, threads,
+    [&](Index begin, Index end, FoundPlace& best)
     {
-      FoundPlace& best = parts[begin / kPlaceChunk];
-      for (Index f = static_cast<Index>(begin); f < end; ++f)
+      for (Index f = begin; f < end; ++f)
       {
         const Vector3 nearest = nearestOnFace(mesh, f, p);
         best = std::min(best, FoundPlace{ (nearest - p).squaredNorm(), { f, nearest } });

@@ -6,10 +6,8 @@
 #include "Mesh/Sizing.h"
 #include "Requests/MeshPaths.h"
 
-#include <algorithm>
 #include <map>
 #include <set>
-#include <utility>
 
 namespace quadrille
 {

@@ -153,13 +153,10 @@ Index SurfacePlaces::nearestOfAll(const Vector3& p) const
     double squared = std::numeric_limits<double>::infinity();
     Index triangle = kInvalidIndex;
   };
-  const std::size_t count = triangleCount();
-  std::vector<Found> parts((count + kPlacesChunk - 1) / kPlacesChunk);
-  parallelFor(count, kPlacesChunk, threads_,
-    [&](std::size_t begin, std::size_t end)
+  const auto parts = parallelParts<Found>(triangleCount(), kPlacesChunk, threads_,
+    [&](Index begin, Index end, Found& best)
     {
-      Found& best = parts[begin / kPlacesChunk];
-      for (Index i = static_cast<Index>(begin); i < end; ++i)
+      for (Index i = begin; i < end; ++i)
       {
         const std::array<Vector3, 3> corner = triangle(i);
         const BoxTree::Box box{ corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),

@@ -3,7 +3,6 @@
 #include "Session/Constraints.h"
 
 #include "Base/Refuse.h"
-#include "Requests/Guides.h"
 #include "Symmetry/Symmetry.h"
 
 #include <algorithm>
@@ -90,11 +89,7 @@ public:
     if (symmetry.plane)
     {
       requirePoints({ symmetry.plane->origin }, 1);
-      const double length = symmetry.plane->normal.stableNorm();
-      if (!(length > 0 && std::isfinite(length)))
-      {
-        refuse(name_, " needs a normal that is finite and not zero, or no plane: then it is found");
-      }
+      requireDirection(symmetry.plane->normal, "normal", "plane");
     }
   }
   void operator()(const RotationalSymmetry& rotation) const
@@ -107,12 +102,7 @@ public:
     if (rotation.axis)
     {
       requirePoints({ rotation.axis->origin }, 1);
-      const double length = rotation.axis->direction.stableNorm();
-      if (!(length > 0 && std::isfinite(length)))
-      {
-        refuse(
-          name_, " needs a direction that is finite and not zero, or no axis: then it is found");
-      }
+      requireDirection(rotation.axis->direction, "direction", "axis");
     }
   }
 
@@ -129,6 +119,15 @@ private:
       {
         refuse("point ", i, " of ", name_, " is not finite: place it anew");
       }
+    }
+  }
+  void requireDirection(const Vector3& direction, const char* what, const char* of) const
+  {
+    const double length = direction.stableNorm();
+    if (!(length > 0 && std::isfinite(length)))
+    {
+      refuse(
+        name_, " needs a ", what, " that is finite and not zero, or no ", of, ": then it is found");
     }
   }
   void requireIds(const std::vector<Index>& polygons) const

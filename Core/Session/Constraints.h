@@ -5,7 +5,6 @@
 #pragma once
 
 #include "Base/Types.h"
-#include "Requests/CurveRequests.h"
 #include "Requests/HeldVertices.h"
 #include "Symmetry/Isometry.h"
 

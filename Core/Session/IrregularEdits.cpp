@@ -8,6 +8,7 @@
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 #include "Mesh/Distance.h"
+#include "Mesh/Topology.h"
 #include "Pipeline/FaceDivision.h"
 #include "Session/IrregularMatch.h"
 
@@ -264,29 +265,13 @@ private:
 
 OnCurves findOnCurves(const MadeSurface& made, int threads)
 {
-  constexpr std::size_t kEditChunk = 3 << 15;
   const Mesh& mesh = made.surface.mesh;
-  std::vector<std::vector<Index>> constrained((mesh.halfEdgeCount() + kEditChunk - 1) / kEditChunk);
-  parallelFor(mesh.halfEdgeCount(), kEditChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (Index h = static_cast<Index>(begin); h < end; ++h)
-      {
-        if (mesh.isConstrained(h) && (mesh.isBoundary(h) || h < mesh.twin[h]))
-        {
-          constrained[begin / kEditChunk].push_back(h);
-        }
-      }
-    });
   OnCurves on;
   on.vertices.assign(mesh.vertexCount(), 0);
-  for (const std::vector<Index>& part : constrained)
+  for (const Index h : constrainedEdges(mesh, threads))
   {
-    for (const Index h : part)
-    {
-      on.vertices[mesh.origin[h]] = on.vertices[mesh.target(h)] = 1;
-      on.edges.push_back({ made.placeAt(h), made.placeAt(Mesh::next(h)) });
-    }
+    on.vertices[mesh.origin[h]] = on.vertices[mesh.target(h)] = 1;
+    on.edges.push_back({ made.placeAt(h), made.placeAt(Mesh::next(h)) });
   }
   return on;
 }
