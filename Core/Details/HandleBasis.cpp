@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Details/HandleBasis.h"
 
+#include "Base/Lists.h"
+
 namespace quadrille
 {
 
@@ -69,14 +71,8 @@ bool HandleBasis::insert(Class loop, const Class& crossings)
       add(loop, second);
     }
   }
-  std::vector<std::size_t> crossed;
-  for (std::size_t i = 0; i < open_.size(); ++i)
-  {
-    if (oddOverlap(crossings, open_[i]))
-    {
-      crossed.push_back(i);
-    }
-  }
+  const std::vector<Index> crossed =
+    idsWhere(open_.size(), [&](Index i) { return oddOverlap(crossings, open_[i]); });
   if (!crossed.empty())
   {
     makePair(crossed, std::move(loop));
@@ -86,15 +82,15 @@ bool HandleBasis::insert(Class loop, const Class& crossings)
 }
 
 /// The class is the other way round the handle of one that it crosses; the others that it crosses are moved off it.
-void HandleBasis::makePair(const std::vector<std::size_t>& crossed, Class&& loop)
+void HandleBasis::makePair(const std::vector<Index>& crossed, Class&& loop)
 {
   // With the one of the highest lowest bit, adding it leaves all other lowest bits as they are.
   std::size_t partner = crossed.front();
-  for (const std::size_t i : crossed)
+  for (const Index i : crossed)
   {
     partner = lowestBit(open_[i]) > lowestBit(open_[partner]) ? i : partner;
   }
-  for (const std::size_t i : crossed)
+  for (const Index i : crossed)
   {
     if (i != partner)
     {

@@ -28,7 +28,7 @@ public:
   bool insert(Class loop, const Class& crossings);
 
 private:
-  void makePair(const std::vector<std::size_t>& crossed, Class&& loop);
+  void makePair(const std::vector<Index>& crossed, Class&& loop);
   bool insertOpen(Class&& loop);
 
   std::vector<Class> open_; ///< no two with the same lowest bit

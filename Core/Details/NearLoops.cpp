@@ -5,7 +5,6 @@
 #include "Base/Lists.h"
 #include "Base/Progress.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace quadrille

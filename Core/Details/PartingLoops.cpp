@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Details/PartingLoops.h"
 
-#include "Mesh/SurfaceEdit.h"
-
 #include <algorithm>
 #include <unordered_map>
 #include <utility>
@@ -44,17 +42,18 @@ bool PartingLoops::setApart(Index one, Index other)
   return false;
 }
 
-std::vector<Index> PartingLoops::shortest(Index root, double& bound) const
+/// Shortest first over vertices, or over vertices with the parity of crossings on the way to them.
+std::vector<Index> PartingLoops::wayTo(Index from, Index to, bool odd, double& bound) const
 {
   struct Way
   {
     double length;
     Index by;
   };
-  std::unordered_map<Index, Way> known; // of vertex and parity: 2 v + p
+  const auto crossings = [&](Index h) { return odd && crossed_.count(h) != 0 ? 1U : 0U; };
+  std::unordered_map<Index, Way> known{ { 2 * from, { 0, kInvalidIndex } } }; // 2 v + parity
   NearFirst near;
-  known[2 * root] = { 0, kInvalidIndex };
-  near.push({ 0, 2 * root });
+  near.push({ 0, 2 * from });
   while (!near.empty() && known.size() < kMostFacesNear)
   {
     const auto [length, at] = near.top();
@@ -63,37 +62,43 @@ std::vector<Index> PartingLoops::shortest(Index root, double& bound) const
     {
       continue;
     }
-    if (at == 2 * root + 1)
+    if (at == 2 * to + (odd ? 1U : 0U))
     {
       bound = length;
-      std::vector<Index> loop;
+      std::vector<Index> way;
       for (Index x = at; known.at(x).by != kInvalidIndex;)
       {
         const Index h = known.at(x).by;
-        loop.push_back(h);
-        x = 2 * mesh_.origin[h] + ((x & 1U) ^ (crossed_.count(h) != 0 ? 1U : 0U));
+        way.push_back(h);
+        x = 2 * mesh_.origin[h] + ((x & 1U) ^ crossings(h));
       }
-      std::reverse(loop.begin(), loop.end());
-      return simple(std::move(loop));
+      std::reverse(way.begin(), way.end());
+      return way;
     }
     if (!isInner(at / 2))
     {
       continue;
     }
     forEachInFan(mesh_, outgoing_[at / 2],
-      [&, so = length, from = at](Index h)
+      [&, so = length, state = at](Index h)
       {
         const double there = so + mesh_.edgeVector(h).norm();
-        const Index to = 2 * mesh_.target(h) + ((from & 1U) ^ (crossed_.count(h) != 0 ? 1U : 0U));
-        const auto before = known.find(to);
+        const Index next = 2 * mesh_.target(h) + ((state & 1U) ^ crossings(h));
+        const auto before = known.find(next);
         if (there < bound && (before == known.end() || there < before->second.length))
         {
-          known[to] = { there, h };
-          near.push({ there, to });
+          known[next] = { there, h };
+          near.push({ there, next });
         }
       });
   }
   return {};
+}
+
+std::vector<Index> PartingLoops::shortest(Index root, double& bound) const
+{
+  std::vector<Index> loop = wayTo(root, root, true, bound);
+  return loop.empty() ? loop : simple(std::move(loop));
 }
 
 std::vector<Index> PartingLoops::through(const std::array<Index, 3>& corners, double bound) const
@@ -101,58 +106,16 @@ std::vector<Index> PartingLoops::through(const std::array<Index, 3>& corners, do
   std::vector<Index> loop;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const std::vector<Index> way = wayTo(corners[i], corners[(i + 1) % 3], bound);
+    double length = bound;
+    const std::vector<Index> way = wayTo(corners[i], corners[(i + 1) % 3], false, length);
     if (way.empty())
     {
       return {};
     }
+    bound -= length;
     loop.insert(loop.end(), way.begin(), way.end());
   }
   return isOdd(loop.begin(), loop.end()) ? simple(std::move(loop)) : std::vector<Index>();
-}
-
-std::vector<Index> PartingLoops::wayTo(Index from, Index to, double& bound) const
-{
-  struct Way
-  {
-    double length;
-    Index by;
-  };
-  std::unordered_map<Index, Way> known{ { from, { 0, kInvalidIndex } } };
-  NearFirst near;
-  near.push({ 0, from });
-  while (!near.empty() && known.size() < kMostFacesNear)
-  {
-    const auto [length, v] = near.top();
-    near.pop();
-    if (v == to)
-    {
-      std::vector<Index> way;
-      for (Index x = to; known.at(x).by != kInvalidIndex; x = mesh_.origin[way.back()])
-      {
-        way.push_back(known.at(x).by);
-      }
-      std::reverse(way.begin(), way.end());
-      bound -= length;
-      return way;
-    }
-    if (length > known.at(v).length || !isInner(v))
-    {
-      continue;
-    }
-    forEachInFan(mesh_, outgoing_[v],
-      [&, so = length](Index h)
-      {
-        const double there = so + mesh_.edgeVector(h).norm();
-        const auto before = known.find(mesh_.target(h));
-        if (there < bound && (before == known.end() || there < before->second.length))
-        {
-          known[mesh_.target(h)] = { there, h };
-          near.push({ there, mesh_.target(h) });
-        }
-      });
-  }
-  return {};
 }
 
 bool PartingLoops::isInner(Index v) const

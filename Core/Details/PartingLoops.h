@@ -41,8 +41,9 @@ public:
   std::vector<Index> through(const std::array<Index, 3>& corners, double bound) const;
 
 private:
-  /// The half-edges of the shortest way; its length is taken off the bound.
-  std::vector<Index> wayTo(Index from, Index to, double& bound) const;
+  /// The half-edges of the shortest way below the bound, which becomes its length. odd: of those that cross the row an
+  /// odd number of times.
+  std::vector<Index> wayTo(Index from, Index to, bool odd, double& bound) const;
 
   template <typename Iterator>
   bool isOdd(Iterator begin, Iterator end) const

@@ -261,18 +261,26 @@ private:
       part.height >= kLeastRise * part.girth;
   }
 
-  std::vector<ThinPart> outerDiscs() const
+  /// The large or the small ones of those found.
+  template <typename Before>
+  std::vector<const Found*> sortedDiscs(bool large, const Before& before) const
   {
     std::vector<const Found*> order;
     for (const Found& found : found_)
     {
-      if (!found.part.isLarge)
+      if (found.part.isLarge == large)
       {
         order.push_back(&found);
       }
     }
-    std::stable_sort(order.begin(), order.end(),
-      [](const Found* a, const Found* b) { return a->faces.size() > b->faces.size(); });
+    std::stable_sort(order.begin(), order.end(), before);
+    return order;
+  }
+
+  std::vector<ThinPart> outerDiscs() const
+  {
+    const std::vector<const Found*> order = sortedDiscs(
+      false, [](const Found* a, const Found* b) { return a->faces.size() > b->faces.size(); });
     std::vector<std::uint8_t> taken(mesh_.faceCount(), 0);
     std::vector<ThinPart> parts;
     for (const Found* found : order)
@@ -293,16 +301,8 @@ private:
   /// Two with nearly the same areas may be on one neck, and what is between them would be a part too small.
   void addNecks(std::vector<ThinPart>& parts) const
   {
-    std::vector<const Found*> order;
-    for (const Found& found : found_)
-    {
-      if (found.part.isLarge)
-      {
-        order.push_back(&found);
-      }
-    }
-    std::stable_sort(order.begin(), order.end(),
-      [](const Found* a, const Found* b) { return a->part.length < b->part.length; });
+    const std::vector<const Found*> order = sortedDiscs(
+      true, [](const Found* a, const Found* b) { return a->part.length < b->part.length; });
     std::vector<double> areas;
     for (const Found* found : order)
     {

@@ -10,7 +10,6 @@
 #include "Mesh/Topology.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "Mesh/Mesh.h"
-#include "Requests/CurveRequests.h"
 #include "Requests/Guides.h"
 
 #include <optional>

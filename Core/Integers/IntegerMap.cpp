@@ -3,6 +3,7 @@
 #include "Integers/IntegerMap.h"
 
 #include "Base/Angles.h"
+#include "Base/Lists.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,15 +126,8 @@ void IntegerMap::measureLoops()
 
 std::vector<Index> IntegerMap::shortLoops() const
 {
-  std::vector<Index> halfEdges;
-  for (Index h = 0; h < loop_.size() && shortage_ > 0; ++h)
-  {
-    if (loop_[h] != kInvalidIndex && shortageOf(loop_[h]) > 0)
-    {
-      halfEdges.push_back(h);
-    }
-  }
-  return halfEdges;
+  return idsWhere(shortage_ > 0 ? loop_.size() : 0,
+    [&](Index h) { return loop_[h] != kInvalidIndex && shortageOf(loop_[h]) > 0; });
 }
 
 FixedVec2 IntegerMap::along(Index h) const
@@ -471,19 +465,10 @@ void IntegerMap::makeDelaunay()
   {
     stack.insert(stack.end(), { 3 * f, 3 * f + 1, 3 * f + 2 });
   }
-  std::size_t budget = 64 * stack.size();
-  while (!stack.empty() && budget > 0)
-  {
-    const Index h = stack.back();
-    stack.pop_back();
-    if (wantsFlip(h))
-    {
-      const Index g = mesh_.twin[h];
-      flip(h);
-      --budget;
-      stack.insert(stack.end(), { h, Mesh::previous(h), g, Mesh::previous(g) });
-    }
-  }
+  const std::size_t budget = 64 * stack.size();
+  flipWhere(
+    mesh_, std::move(stack), budget, [&](Index h) { return wantsFlip(h); },
+    [&](Index h) { flip(h); });
 }
 
 double IntegerMap::energy() const

@@ -5,8 +5,6 @@
 #include "Base/DisjointSets.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
 
 namespace quadrille
 {

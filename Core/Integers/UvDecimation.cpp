@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Integers/UvDecimation.h"
 
+#include "Base/Lists.h"
+
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -82,31 +84,12 @@ private:
 
   void makeDelaunay(const std::vector<Index>& slots)
   {
-    std::vector<Index> stack;
-    for (const Index slot : slots)
-    {
-      if (mesh_.alive[Mesh::face(slot)])
-      {
-        stack.push_back(slot);
-      }
-    }
+    std::vector<Index> stack =
+      elementsWhere(slots, [&](Index slot) { return mesh_.alive[Mesh::face(slot)] != 0; });
     // Each flip lowers the Delaunay energy by more than rounding; the budget is for what theory missed.
-    std::size_t budget = 64 * mesh_.origin.size() + 1000;
-    while (!stack.empty() && budget > 0)
-    {
-      const Index h = stack.back();
-      stack.pop_back();
-      if (wantsFlip(h))
-      {
-        const Index g = mesh_.twin[h];
-        editor_.flip(h);
-        --budget;
-        for (const Index slot : { h, Mesh::previous(h), g, Mesh::previous(g) })
-        {
-          stack.push_back(slot);
-        }
-      }
-    }
+    flipWhere(
+      mesh_, std::move(stack), 64 * mesh_.origin.size() + 1000,
+      [&](Index h) { return wantsFlip(h); }, [&](Index h) { editor_.flip(h); });
   }
 
   /// One round over vertices whose stars do not touch, so that stars stay small.

@@ -56,6 +56,25 @@ struct UvMesh
   std::vector<Index> starFrom(Index first) const;
 };
 
+/// Flips the edges of the stack that want it, the last one first, and then those round them, at most `budget` times.
+template <typename Wants, typename Flip>
+void flipWhere(const UvMesh& mesh, std::vector<Index> stack, std::size_t budget, const Wants& wants,
+  const Flip& flip)
+{
+  while (!stack.empty() && budget > 0)
+  {
+    const Index h = stack.back();
+    stack.pop_back();
+    if (wants(h))
+    {
+      const Index g = mesh.twin[h];
+      flip(h);
+      --budget;
+      stack.insert(stack.end(), { h, Mesh::previous(h), g, Mesh::previous(g) });
+    }
+  }
+}
+
 /// One operation with what undoing it needs.
 struct UvRecord
 {
