@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <functional>
 
 namespace quadrille
 {
@@ -136,8 +135,8 @@ bool JointStrips::insertFrom(const ChainPlace& from, bool mayRaise)
   const ChainPlace to = ends.at(quads_.quads[last / 4][(last + 1) % 4]).second;
   raise(from, to);
   const InsertedStrip strip = insertStrip(quads_, *path);
-  splitBehind(from, strip.points.front().first, strip.points.front().second);
-  splitBefore(to, strip.points.back().first, strip.points.back().second);
+  splitAt(from, strip.points.front().first, strip.points.front().second, true);
+  splitAt(to, strip.points.back().first, strip.points.back().second, false);
   crowd(from, strip.points.front().first);
   crowd(to, strip.points.back().first);
   spread(strip);
@@ -297,44 +296,21 @@ void JointStrips::crowd(const ChainPlace& place, Index point)
   }
 }
 
-void JointStrips::splitBehind(const ChainPlace& place, Index point, Index copy)
+void JointStrips::splitAt(const ChainPlace& place, Index point, Index copy, bool behind)
 {
   std::vector<SheetChain>& chains = loops_[place.loop].chains;
   std::vector<Index>& points = chains[place.chain].points;
   const auto at = std::find(points.begin(), points.end(), point);
-  const bool isLast = at + 1 == points.end();
-  points.insert(at + 1, copy);
-  // Chains that begin at the point begin at the copy.
-  for (std::size_t i = 1; isLast && i < chains.size(); ++i)
+  const bool isAtEnd = behind ? at + 1 == points.end() : at == points.begin();
+  points.insert(behind ? at + 1 : at, copy);
+  // Chains that begin at the point begin at the copy, or end at it; before it also a loop of one chain its own end.
+  const std::size_t count = chains.size();
+  for (std::size_t i = 1; isAtEnd && i < count + (behind ? 0 : 1); ++i)
   {
-    std::vector<Index>& next = chains[(place.chain + i) % chains.size()].points;
+    std::vector<Index>& next = chains[(place.chain + (behind ? i : count - i)) % count].points;
     const bool isOnlyPoint = next.size() == 1;
-    if (next.front() == point)
-    {
-      next.front() = copy;
-    }
-    if (!isOnlyPoint)
-    {
-      break;
-    }
-  }
-}
-
-void JointStrips::splitBefore(const ChainPlace& place, Index point, Index copy)
-{
-  std::vector<SheetChain>& chains = loops_[place.loop].chains;
-  std::vector<Index>& points = chains[place.chain].points;
-  const auto at = std::find(points.begin(), points.end(), point);
-  const bool isFirst = at == points.begin();
-  points.insert(at, copy);
-  for (std::size_t i = 1; isFirst && i <= chains.size(); ++i) // of a loop of one chain its own end
-  {
-    std::vector<Index>& before = chains[(place.chain + chains.size() - i) % chains.size()].points;
-    const bool isOnlyPoint = before.size() == 1;
-    if (before.back() == point)
-    {
-      before.back() = copy;
-    }
+    Index& end = behind ? next.front() : next.back();
+    end = end == point ? copy : end;
     if (!isOnlyPoint)
     {
       break;
@@ -345,26 +321,7 @@ void JointStrips::splitBefore(const ChainPlace& place, Index point, Index copy)
 void JointStrips::spread(const InsertedStrip& strip)
 {
   constexpr double share = 1.0 / 3;
-  std::map<Index, std::vector<Index>> neighbours;
-  std::set<Index> onPath;
-  for (const auto& [left, right] : strip.points)
-  {
-    onPath.insert(left);
-    onPath.insert(right);
-  }
-  for (const std::array<Index, 4>& quad : quads_.quads)
-  {
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      for (const std::size_t k : { (i + 1) % 4, (i + 3) % 4 })
-      {
-        if (onPath.count(quad[i]) != 0 && onPath.count(quad[k]) == 0)
-        {
-          neighbours[quad[i]].push_back(quad[k]);
-        }
-      }
-    }
-  }
+  std::map<Index, std::vector<Index>> neighbours = pointsBeside(strip, quads_.quads);
   for (std::size_t i = 1; i + 1 < strip.points.size(); ++i)
   {
     for (const Index p : { strip.points[i].first, strip.points[i].second })

@@ -64,10 +64,8 @@ private:
   double crowdedCost(Index p) const;
   /// The next strips keep away from this one, such that the points of the chain need not move far.
   void crowd(const ChainPlace& place, Index point);
-  /// The copy comes behind the point in its chain.
-  void splitBehind(const ChainPlace& place, Index point, Index copy);
-  /// The copy comes before the point in its chain.
-  void splitBefore(const ChainPlace& place, Index point, Index copy);
+  /// The copy comes behind the point in its chain, or before it.
+  void splitAt(const ChainPlace& place, Index point, Index copy, bool behind);
   /// Points inside a strip go apart, by a third of the way to their neighbours across.
   void spread(const InsertedStrip& strip);
 

@@ -7,14 +7,12 @@
 #include "Base/DisjointSets.h"
 #include "Base/Progress.h"
 #include "Mesh/Distance.h"
-#include "Mesh/Topology.h"
 #include "Quads/QuadTopology.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 

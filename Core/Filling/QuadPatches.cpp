@@ -337,9 +337,7 @@ void QuadPatches::finish()
     line.a = newId[line.a];
     line.b = newId[line.b];
   }
-  QuadTopology topology = analyzeQuads(quads_.quads, quads_.points.size());
-  quads_.valence = std::move(topology.valence);
-  quads_.onBoundary = std::move(topology.onBoundary);
+  setValences(quads_);
 }
 
 } // namespace quadrille

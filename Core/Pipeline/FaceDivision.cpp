@@ -179,24 +179,12 @@ private:
 void spreadStrip(const Mesh& mesh, QuadMesh& quads, const InsertedStrip& strip)
 {
   constexpr double share = 1.0 / 3;
-  std::set<Index> onStrip;
-  for (const auto& [left, right] : strip.points)
+  std::map<Index, std::vector<Vector3>> beside; // where they are before any point moves
+  for (const auto& [p, others] : pointsBeside(strip, quads.quads))
   {
-    onStrip.insert(left);
-    onStrip.insert(right);
-  }
-  std::map<Index, std::vector<Vector3>> beside;
-  for (const std::array<Index, 4>& quad : quads.quads)
-  {
-    for (std::size_t i = 0; i < 4; ++i)
+    for (const Index other : others)
     {
-      for (const std::size_t k : { (i + 1) % 4, (i + 3) % 4 })
-      {
-        if (onStrip.count(quad[i]) != 0 && onStrip.count(quad[k]) == 0)
-        {
-          beside[quad[i]].push_back(quads.points[quad[k]]);
-        }
-      }
+      beside[p].push_back(quads.points[other]);
     }
   }
   QuadMoves moves(mesh, quads, {});

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "Pipeline/Division.h"
-#include "Pipeline/Pipeline.h"
 
 #include <array>
 #include <cstddef>

@@ -338,9 +338,7 @@ void JoinedRuns::addFilled(const CutFaces& cut, FilledPart filled)
     line.b = newId[stands[line.b]];
   }
   joinLines(all);
-  const QuadTopology topology = analyzeQuads(all.quads, all.points.size());
-  all.valence = topology.valence;
-  all.onBoundary = topology.onBoundary;
+  setValences(all);
   PreparedSurface added = surface;
   added.components = 0; // those of the rest
   added.valenceRequests.clear();

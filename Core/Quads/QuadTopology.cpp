@@ -357,6 +357,13 @@ QuadTopology analyzeQuads(const Quads& quads, std::size_t pointCount, int thread
   return analyze(QuadCorners{ quads }, pointCount, threads);
 }
 
+void setValences(QuadMesh& mesh)
+{
+  QuadTopology topology = analyzeQuads(mesh.quads, mesh.points.size());
+  mesh.valence = std::move(topology.valence);
+  mesh.onBoundary = std::move(topology.onBoundary);
+}
+
 QuadTopology analyzeCells(const QuadMesh& mesh)
 {
   return analyze(CellCornerList(mesh), mesh.points.size(), 1);
@@ -385,19 +392,12 @@ std::vector<std::uint8_t> linesOnEdges(const QuadMesh& mesh)
 
 std::string QuadTopology::text() const
 {
-  std::string result;
-  const auto add = [&result](std::size_t count, const char* what)
-  {
-    if (count > 0)
-    {
-      result += (result.empty() ? "" : ", ") + std::to_string(count) + " " + what;
-    }
-  };
-  add(nonManifoldEdges, "non-manifold edges");
-  add(nonManifoldVertices, "non-manifold vertices");
-  add(degenerateQuads, "quads with a repeated vertex");
-  add(isolatedPoints, "isolated vertices");
-  return result;
+  std::string text;
+  appendCount(text, nonManifoldEdges, "non-manifold edges");
+  appendCount(text, nonManifoldVertices, "non-manifold vertices");
+  appendCount(text, degenerateQuads, "quads with a repeated vertex");
+  appendCount(text, isolatedPoints, "isolated vertices");
+  return text;
 }
 
 } // namespace quadrille

@@ -57,6 +57,9 @@ std::vector<std::vector<Index>> boundaryLoops(const QuadTopology& topology);
 QuadTopology analyzeQuads(
   const std::vector<std::array<Index, 4>>& quads, std::size_t pointCount, int threads = 1);
 
+/// Sets the valences of the mesh, and what lies on its boundary, by its quads.
+void setValences(QuadMesh& mesh);
+
 /// The same for the quads and the polygons together: half-edges of quads come first, then those of polygons, corner
 /// after corner.
 QuadTopology analyzeCells(const QuadMesh& mesh);

@@ -31,6 +31,15 @@ Index toOf(const QuadMesh& mesh, Index h)
   return fromOf(mesh, nextInQuad(h));
 }
 
+/// A point at the same place, on the other side of the strip.
+void addCopy(QuadMesh& mesh, Index p, InsertedStrip& strip)
+{
+  strip.points.emplace_back(p, static_cast<Index>(mesh.points.size()));
+  mesh.points.push_back(Vector3(mesh.points[p]));
+  mesh.sourceFace.push_back(Index{ mesh.sourceFace[p] });
+  mesh.sourceWeights.push_back(std::array<double, 3>(mesh.sourceWeights[p]));
+}
+
 /// Lines of a mesh by half-edges of quads, such that they keep their edges when points get copies.
 std::vector<Index> halfEdgesOfLines(const QuadMesh& mesh)
 {
@@ -240,23 +249,41 @@ std::optional<QuadPath> chordFrom(const QuadMesh& mesh, Index boundaryHalfEdge)
   return chord;
 }
 
+std::map<Index, std::vector<Index>> pointsBeside(
+  const InsertedStrip& strip, const std::vector<std::array<Index, 4>>& quads)
+{
+  std::set<Index> onStrip;
+  for (const auto& [left, right] : strip.points)
+  {
+    onStrip.insert({ left, right });
+  }
+  std::map<Index, std::vector<Index>> beside;
+  for (const std::array<Index, 4>& quad : quads)
+  {
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      for (const std::size_t k : { (i + 1) % 4, (i + 3) % 4 })
+      {
+        if (onStrip.count(quad[i]) != 0 && onStrip.count(quad[k]) == 0)
+        {
+          beside[quad[i]].push_back(quad[k]);
+        }
+      }
+    }
+  }
+  return beside;
+}
+
 InsertedStrip splitChord(QuadMesh& mesh, const QuadPath& chord)
 {
   const std::vector<Index> lineHalfEdges = halfEdgesOfLines(mesh);
   const std::vector<Index> twin = analyzeQuads(mesh.quads, mesh.points.size()).twin;
   InsertedStrip strip;
-  const auto addPoint = [&](Index at)
-  {
-    strip.points.emplace_back(at, static_cast<Index>(mesh.points.size()));
-    mesh.points.push_back(Vector3(mesh.points[at]));
-    mesh.sourceFace.push_back(Index{ mesh.sourceFace[at] });
-    mesh.sourceWeights.push_back(std::array<double, 3>(mesh.sourceWeights[at]));
-  };
   for (const Index h : chord)
   {
-    addPoint(fromOf(mesh, h));
+    addCopy(mesh, fromOf(mesh, h), strip);
   }
-  addPoint(toOf(mesh, oppositeInQuad(chord.back())));
+  addCopy(mesh, toOf(mesh, oppositeInQuad(chord.back())), strip);
   // Crossed lines: one half stays where it was, the other one is new.
   std::vector<QuadLine> halves;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l)
@@ -290,9 +317,7 @@ InsertedStrip splitChord(QuadMesh& mesh, const QuadPath& chord)
     mesh.quadSourceWeights[q] = { 0, 0, 0 };
     mesh.quadSourceWeights.push_back({ 0, 0, 0 });
   }
-  const QuadTopology topology = analyzeQuads(mesh.quads, mesh.points.size());
-  mesh.valence = topology.valence;
-  mesh.onBoundary = topology.onBoundary;
+  setValences(mesh);
   return strip;
 }
 
@@ -304,11 +329,7 @@ InsertedStrip insertStrip(QuadMesh& mesh, const QuadPath& path)
   InsertedStrip strip;
   for (std::size_t i = 0; i < right.size(); ++i)
   {
-    const Index p = i < path.size() ? fromOf(mesh, path[i]) : toOf(mesh, path.back());
-    strip.points.emplace_back(p, static_cast<Index>(mesh.points.size()));
-    mesh.points.push_back(Vector3(mesh.points[p]));
-    mesh.sourceFace.push_back(Index{ mesh.sourceFace[p] });
-    mesh.sourceWeights.push_back(std::array<double, 3>(mesh.sourceWeights[p]));
+    addCopy(mesh, i < path.size() ? fromOf(mesh, path[i]) : toOf(mesh, path.back()), strip);
   }
   for (std::size_t i = 0; i < right.size(); ++i)
   {
@@ -358,9 +379,7 @@ InsertedStrip insertStrip(QuadMesh& mesh, const QuadPath& path)
       mesh.lines.push_back({ left, copy, kInvalidIndex, true });
     }
   }
-  const QuadTopology topology = analyzeQuads(mesh.quads, mesh.points.size());
-  mesh.valence = topology.valence;
-  mesh.onBoundary = topology.onBoundary;
+  setValences(mesh);
   return strip;
 }
 

@@ -12,6 +12,7 @@
 #include "Quads/QuadMesh.h"
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -48,5 +49,10 @@ InsertedStrip splitChord(QuadMesh& mesh, const QuadPath& chord);
 /// Opens the path. New quads are at the end, with the face of the quad on the left and no weights. Features that are
 /// crossed go on over the strip, and the two new edges of the boundary are lines.
 InsertedStrip insertStrip(QuadMesh& mesh, const QuadPath& path);
+
+/// Of each point of the strip the ones beside it in quads that are not on the strip, in the order of the quads, once
+/// for each edge of a quad.
+std::map<Index, std::vector<Index>> pointsBeside(
+  const InsertedStrip& strip, const std::vector<std::array<Index, 4>>& quads);
 
 } // namespace quadrille

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quads/SurfaceWalk.h"
 
-#include "Mesh/SurfaceEdit.h"
-
 #include <algorithm>
 #include <cmath>
 
