@@ -6,7 +6,6 @@
 #include "Base/Refuse.h"
 #include "Mesh/Topology.h"
 
-#include <numeric>
 #include <string>
 
 namespace quadrille

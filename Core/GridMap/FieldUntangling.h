@@ -3,7 +3,6 @@
 /// Untangling until a map winds like its field everywhere; shared by the seamless map and the re-embedding.
 #pragma once
 
-#include "Base/TryCount.h"
 #include "GridMap/MapCheck.h"
 #include "Numerics/Untangler.h"
 

@@ -16,7 +16,6 @@
 #include "Integers/CurveIsolines.h"
 #include "Mesh/Mesh.h"
 #include "Requests/Guides.h"
-#include "Requests/StraightRequests.h"
 
 #include <cstddef>
 #include <string>

@@ -154,15 +154,13 @@ UntangleProblem LockedMap::problem(double edgeLength) const
     const Index unknown[2] = { unknownU_[v], unknownV_[v] };
     const FixedVec2 locked{ lockedU_[v] ? master_[v].u : 0, lockedV_[v] ? master_[v].v : 0 };
     problem.offset.segment<2>(2 * Eigen::Index(h)) = toDouble(place_[h].apply(locked));
-    const FixedVec2 axes[2] = { rotate({ 1, 0 }, place_[h].rotation),
-      rotate({ 0, 1 }, place_[h].rotation) };
     for (int i = 0; i < 2; ++i)
     {
       if (unknown[i] != kInvalidIndex)
       {
-        const int row = static_cast<int>(2 * h) + (axes[i].u != 0 ? 0 : 1);
+        const CornerAxis axis = cornerAxis(i, place_[h].rotation);
         triplets.emplace_back(
-          row, static_cast<int>(unknown[i]), static_cast<double>(axes[i].u + axes[i].v));
+          static_cast<int>(2 * h) + axis.coordinate, static_cast<int>(unknown[i]), axis.sign);
       }
     }
   }

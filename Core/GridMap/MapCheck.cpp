@@ -3,7 +3,6 @@
 #include "GridMap/MapCheck.h"
 
 #include "Base/Lists.h"
-#include "Mesh/Topology.h"
 
 #include <algorithm>
 

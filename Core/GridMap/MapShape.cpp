@@ -188,6 +188,12 @@ UntangleProblem referToMap(const UntangleProblem& problem, const CarriedMap& car
   return result;
 }
 
+CornerAxis cornerAxis(int axis, int rotation)
+{
+  const FixedVec2 along = rotate(axis == 0 ? FixedVec2{ 1, 0 } : FixedVec2{ 0, 1 }, rotation);
+  return { along.u != 0 ? 0 : 1, static_cast<double>(along.u + along.v) };
+}
+
 void guardEdges(UntangleProblem& problem, const std::vector<GuardedEdge>& edges)
 {
   const Eigen::Index rows = problem.offset.size();

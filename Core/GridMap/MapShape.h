@@ -76,6 +76,14 @@ std::vector<GuardedEdge> guardedEdges(const Mesh& mesh, const CrossField& field,
   return edges;
 }
 
+/// An axis of a vertex's chart in that of a corner which is rotated against it: along one of the two coordinates.
+struct CornerAxis
+{
+  int coordinate = 0; ///< 0: u, 1: v
+  double sign = 1;
+};
+CornerAxis cornerAxis(int axis, int rotation);
+
 /// Appends a triangle for each edge, after those of the faces, that is positive when the edge runs along its
 /// axis and inverted when it runs against it: a feature or a boundary can fold over at a vertex though
 /// all faces are positive. Its third point hangs on `from` by a constant offset.

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <memory>
 #include <sstream>
-#include <string>
 #include <vector>
 
 namespace quadrille
@@ -228,37 +227,19 @@ bool MapRelaxation::relaxVertex(Index v)
 {
   Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
   Vector2 rightSide = Vector2::Zero();
-  const Index start = outgoing_[v];
-  const auto forStar = [&](const auto& visit)
+  const std::vector<Index> star = starOf(v);
+  for (const Index h : star)
   {
-    for (Index h = start; h != kInvalidIndex;)
+    if (references_[Mesh::face(h)].weight > 0)
     {
-      if (!visit(h))
-      {
-        return false;
-      }
-      h = mesh_.rotateCounterclockwise(h);
-      if (h == start)
-      {
-        break;
-      }
+      Jacobian gradient;
+      Eigen::Matrix4d hessian;
+      derive(Mesh::face(h), gradient, hessian);
+      const Eigen::Matrix<double, 4, 2> derivative = cornerDerivative(h);
+      matrix += derivative.transpose() * hessian * derivative;
+      rightSide -= derivative.transpose() * gradient;
     }
-    return true;
-  };
-  forStar(
-    [&](Index h)
-    {
-      if (references_[Mesh::face(h)].weight > 0)
-      {
-        Jacobian gradient;
-        Eigen::Matrix4d hessian;
-        derive(Mesh::face(h), gradient, hessian);
-        const Eigen::Matrix<double, 4, 2> derivative = cornerDerivative(h);
-        matrix += derivative.transpose() * hessian * derivative;
-        rightSide -= derivative.transpose() * gradient;
-      }
-      return true;
-    });
+  }
   for (Eigen::Index axis = 0; axis < 2; ++axis)
   {
     if (free_[v][static_cast<std::size_t>(axis)] == 0)
@@ -279,17 +260,13 @@ bool MapRelaxation::relaxVertex(Index v)
   for (double length = 1; length > 1e-3 && !moved; length /= 2)
   {
     step_[v] = toFixed(Vector2(length * direction));
-    moved = direction.norm() < 16 && forStar([&](Index h) { return allows(Mesh::face(h)); }) &&
+    moved = direction.norm() < 16 &&
+      std::all_of(star.begin(), star.end(), [&](Index h) { return allows(Mesh::face(h)); }) &&
       starEnergy(v, true) < before;
   }
-  if (moved)
+  for (std::size_t i = 0; moved && i < star.size(); ++i)
   {
-    forStar(
-      [&](Index h)
-      {
-        uv_[h] = uv_[h] + stepOf(h);
-        return true;
-      });
+    uv_[star[i]] = uv_[star[i]] + stepOf(star[i]);
   }
   step_[v] = {};
   return moved;

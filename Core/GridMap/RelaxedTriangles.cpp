@@ -420,10 +420,9 @@ UntangleProblem RelaxedTriangles::problem() const
       {
         if (unknown[mesh_.origin[h]][axis] >= 0)
         {
-          const FixedVec2 along =
-            rotate(axis == 0 ? FixedVec2{ 1, 0 } : FixedVec2{ 0, 1 }, rotation_[h]);
-          triplets.emplace_back(static_cast<int>(2 * h) + (along.u != 0 ? 0 : 1),
-            unknown[mesh_.origin[h]][axis], static_cast<double>(along.u + along.v));
+          const CornerAxis along = cornerAxis(static_cast<int>(axis), rotation_[h]);
+          triplets.emplace_back(
+            static_cast<int>(2 * h) + along.coordinate, unknown[mesh_.origin[h]][axis], along.sign);
         }
       }
     }
@@ -481,21 +480,25 @@ double RelaxedTriangles::totalEnergy(bool stepped) const
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
+std::vector<Index> RelaxedTriangles::starOf(Index v) const
+{
+  std::vector<Index> star;
+  if (outgoing_[v] != kInvalidIndex)
+  {
+    forEachInFan(mesh_, outgoing_[v], [&](Index h) { star.push_back(h); });
+  }
+  return star;
+}
+
 double RelaxedTriangles::starEnergy(Index v, bool stepped) const
 {
   double sum = 0;
-  const Index start = outgoing_[v];
-  for (Index h = start; h != kInvalidIndex;)
+  for (const Index h : starOf(v))
   {
     const Index f = Mesh::face(h);
     if (references_[f].weight > 0)
     {
       sum += energy(f, stepped ? steppedCorners(f) : cornersOf(f));
-    }
-    h = mesh_.rotateCounterclockwise(h);
-    if (h == start)
-    {
-      break;
     }
   }
   return sum;

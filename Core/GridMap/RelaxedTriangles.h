@@ -68,6 +68,8 @@ protected:
   void derivatives(std::vector<Jacobian>& gradients, std::vector<Eigen::Matrix4d>& hessians) const;
   double referenceArea() const;
   double totalEnergy(bool stepped) const;
+  /// The half-edges that leave a vertex, counterclockwise.
+  std::vector<Index> starOf(Index v) const;
   double starEnergy(Index v, bool stepped) const;
   bool allows(Index f) const;
   bool allowsAll() const;

@@ -3,6 +3,7 @@
 #include "Hierarchy/BudgetDecimation.h"
 
 #include "Base/Angles.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/TryCount.h"
 #include "Hierarchy/ComparedCosts.h"
@@ -343,14 +344,8 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
 
 std::vector<BudgetDecimation::Entry> BudgetDecimation::evaluateAll(const Stage& stage)
 {
-  std::vector<Index> alive;
-  for (Index v = 0; v < mesh_.position.size(); ++v)
-  {
-    if (mesh_.outgoing[v] != kInvalidIndex)
-    {
-      alive.push_back(v);
-    }
-  }
+  const std::vector<Index> alive =
+    idsWhere(mesh_.position.size(), [&](Index v) { return mesh_.outgoing[v] != kInvalidIndex; });
   std::vector<float> cost(alive.size(), -1);
   std::deque<Work> works;
   for (std::size_t begin = 0; begin < alive.size(); begin += kCandidateChunk)

@@ -7,7 +7,6 @@
 #include "Mesh/Sizing.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace quadrille
 {

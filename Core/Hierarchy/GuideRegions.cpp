@@ -114,11 +114,6 @@ Eigen::AlignedBox3d boxOf(const Mesh& mesh, const std::vector<FaceGuide>& guides
   return { box.min() - Vector3::Constant(margin), box.max() + Vector3::Constant(margin) };
 }
 
-} // namespace
-
-namespace
-{
-
 /// Brings guides from the finest level to another one.
 class GuideProjection
 {
@@ -204,10 +199,26 @@ private:
     }
   }
 
+  /// Guided fine faces that others do not reach within the distance through guided faces.
+  std::vector<Index> guidedBeyond(const std::vector<Index>& source, double reach) const
+  {
+    const std::vector<Index> reached =
+      spread(fine_, source, reach, [&](Index h) { return isGuided(acrossOf(h)); });
+    std::vector<Index> beyond;
+    for (const FaceGuide& guide : guides_)
+    {
+      if (reached[guide.face] == kInvalidIndex)
+      {
+        beyond.push_back(guide.face);
+      }
+    }
+    return beyond;
+  }
+
   /// Guided fine faces in parts of regions that have no place farther than `halfWidth` from their border, as strokes.
   std::vector<Index> thinFaces(double halfWidth) const
   {
-    std::vector<Index> outside, inside, thin;
+    std::vector<Index> outside;
     for (const FaceGuide& guide : guides_)
     {
       for (Index h = 3 * guide.face; h < 3 * guide.face + 3; ++h)
@@ -218,24 +229,8 @@ private:
         }
       }
     }
-    const auto toGuided = [&](Index h) { return isGuided(acrossOf(h)); };
-    const std::vector<Index> nearBorder = spread(fine_, outside, halfWidth, toGuided);
-    for (const FaceGuide& guide : guides_)
-    {
-      if (nearBorder[guide.face] == kInvalidIndex)
-      {
-        inside.push_back(guide.face);
-      }
-    }
-    const std::vector<Index> wide = spread(fine_, inside, 2 * halfWidth, toGuided);
-    for (const FaceGuide& guide : guides_)
-    {
-      if (wide[guide.face] == kInvalidIndex)
-      {
-        thin.push_back(guide.face);
-      }
-    }
-    return thin;
+    const std::vector<Index> inside = guidedBeyond(outside, halfWidth);
+    return guidedBeyond(inside, 2 * halfWidth);
   }
 
   /// Guided fine faces farther than `cover` from all middles of triangles that took a guide.
@@ -249,17 +244,7 @@ private:
         seen.push_back(below_[f]);
       }
     }
-    const std::vector<Index> covered =
-      spread(fine_, seen, cover, [&](Index h) { return isGuided(acrossOf(h)); });
-    std::vector<Index> missed;
-    for (const FaceGuide& guide : guides_)
-    {
-      if (covered[guide.face] == kInvalidIndex)
-      {
-        missed.push_back(guide.face);
-      }
-    }
-    return missed;
+    return guidedBeyond(seen, cover);
   }
 
   const Mesh& fine_;

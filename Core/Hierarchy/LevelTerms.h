@@ -3,10 +3,8 @@
 /// What vertices, faces, records and curves of one level are called on another one.
 #pragma once
 
-#include "Hierarchy/DecimationLog.h"
 #include "Hierarchy/FeatureCurves.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/Mesh.h"
 
 #include <optional>
 

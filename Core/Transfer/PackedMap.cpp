@@ -5,8 +5,6 @@
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 
-#include <string>
-
 namespace quadrille
 {
 

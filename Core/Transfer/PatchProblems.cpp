@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 
 namespace quadrille
 {
@@ -25,13 +24,6 @@ namespace
 constexpr double kNearest = 1e-4;
 /// References flatter than this (2 area / longest edge squared) are replaced by equilateral ones.
 constexpr double kFlattestTriangle = 0.1;
-
-/// The displacement of unknown direction (1, 0) or (0, 1) in a corner's chart.
-Vector2 direction(bool alongU, int rotation)
-{
-  const FixedVec2 d = rotate(alongU ? FixedVec2{ 1, 0 } : FixedVec2{ 0, 1 }, rotation);
-  return { static_cast<double>(d.u), static_cast<double>(d.v) };
-}
 
 } // namespace
 
@@ -77,9 +69,8 @@ UntangleProblem PatchProblems::make(const std::vector<double>& rotations) const
         {
           continue;
         }
-        const Vector2 d = direction(alongU, c.rotation);
-        const int axis = d.x() != 0 ? 0 : 1;
-        entries.emplace_back(row + axis, column++, d[axis]);
+        const CornerAxis axis = cornerAxis(alongU ? 0 : 1, c.rotation);
+        entries.emplace_back(row + axis.coordinate, column++, axis.sign);
       }
     }
   }
@@ -147,9 +138,7 @@ std::vector<double> PatchProblems::nearnessToFixed() const
   double farthest = 0;
   for (std::size_t i = 0; i < patch_.faces().size(); ++i)
   {
-    const auto corner = [&](Index k)
-    { return mesh_.position[mesh_.origin[3 * patch_.faces()[i] + k]]; };
-    const Vector3 middle = (corner(0) + corner(1) + corner(2)) / 3;
+    const Vector3 middle = mesh_.middleOfFace(patch_.faces()[i]);
     double squared = std::numeric_limits<double>::infinity();
     for (const Vector3& p : fixed)
     {

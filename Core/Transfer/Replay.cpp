@@ -10,8 +10,6 @@
 #include "Mesh/Mesh.h"
 #include "Transfer/StarReplay.h"
 
-#include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 

@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string>
 
 namespace quadrille
 {

@@ -12,9 +12,6 @@
 #include "Transfer/PatchMender.h"
 #include "Transfer/Replay.h"
 
-#include <algorithm>
-#include <numeric>
-#include <string>
 #include <utility>
 
 namespace quadrille
