@@ -9,7 +9,6 @@
 #include "Ways/Ways.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace quadrille

@@ -3,12 +3,10 @@
 #include "Elements/SurfaceSection.h"
 
 #include "Base/Angles.h"
-#include "Mesh/SurfaceEdit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <queue>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 

@@ -8,7 +8,6 @@
 #include "Export/SetNames.h"
 
 #include <algorithm>
-#include <array>
 
 namespace quadrille
 {

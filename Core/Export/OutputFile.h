@@ -4,7 +4,6 @@
 #pragma once
 
 #include "Base/Error.h"
-#include "Base/Types.h"
 
 #include <charconv>
 #include <cstdio>

@@ -8,7 +8,6 @@
 #include "Export/SetNames.h"
 
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 

@@ -7,7 +7,6 @@
 #include "Base/TryCount.h"
 #include "Extraction/FaceTrace.h"
 #include "Extraction/PolygonSimplifier.h"
-#include "Extraction/QuadAssembly.h"
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>

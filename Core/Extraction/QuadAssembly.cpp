@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/QuadAssembly.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Extraction/CurveLines.h"
 #include "Extraction/FoldedCells.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <numeric>
 #include <tuple>
 
 namespace quadrille
@@ -225,16 +225,8 @@ std::vector<Index> usedVertices(
         }
       }
     });
-  std::vector<Index> used;
-  used.reserve(vertexCount);
-  for (Index q = 0; q < vertexCount; ++q)
-  {
-    if (isUsed[q].load(std::memory_order_relaxed) != 0)
-    {
-      used.push_back(q);
-    }
-  }
-  return used;
+  return idsWhere(
+    vertexCount, [&](Index q) { return isUsed[q].load(std::memory_order_relaxed) != 0; });
 }
 
 /// Places the grid vertices that cells use. Returns point ids per grid vertex.

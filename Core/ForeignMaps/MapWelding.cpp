@@ -6,7 +6,6 @@
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 #include "Mesh/EdgeRuns.h"
-#include "Mesh/SurfaceEdit.h"
 
 #include <algorithm>
 #include <cmath>

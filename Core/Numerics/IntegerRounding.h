@@ -3,8 +3,6 @@
 /// Rounding of some linear forms of the unknowns of a quadratic energy to whole numbers.
 #pragma once
 
-#include "Base/Types.h"
-
 #include <Eigen/Core>
 
 #include <cstdint>

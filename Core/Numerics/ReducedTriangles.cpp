@@ -6,9 +6,7 @@
 #include "Base/Refuse.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <string>
 #include <utility>
 
 namespace quadrille

@@ -53,15 +53,7 @@ std::vector<Index> ringsRound(
       near[v] = 1;
     }
   }
-  std::vector<Index> found;
-  for (const Index v : level.fineVertex)
-  {
-    if (near[v])
-    {
-      found.push_back(v);
-    }
-  }
-  return found;
+  return elementsWhere(level.fineVertex, [&](Index v) { return near[v] != 0; });
 }
 
 } // namespace

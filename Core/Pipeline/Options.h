@@ -7,7 +7,6 @@
 #include "Base/Progress.h"
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/Mesh.h"
 #include "Pipeline/FinalQuality.h"
 #include "Sizes/AdaptiveSizes.h"
 

@@ -97,15 +97,12 @@ std::string missedValencesText(const PreparedSurface& surface, const QuadMesh& q
       valence[surface.mesh.origin[*corner]] = quads.valence[p] + (quads.onBoundary[p] != 0 ? 1 : 0);
     }
   }
-  std::vector<ValenceRequest> missed;
-  for (const ValenceRequest& request : surface.valenceRequests)
-  {
-    if (request.valence != kRegularValence && !request.mayDrift &&
-      valence[request.vertex] != request.valence)
+  const auto missed = elementsWhere(surface.valenceRequests,
+    [&](const ValenceRequest& request)
     {
-      missed.push_back(request);
-    }
-  }
+      return request.valence != kRegularValence && !request.mayDrift &&
+        valence[request.vertex] != request.valence;
+    });
   if (missed.empty())
   {
     return {};

@@ -16,7 +16,6 @@
 #include "Pipeline/JoinedRuns.h"
 #include "Pipeline/Recovery.h"
 #include "Pipeline/RunResult.h"
-#include "Pipeline/Strategies.h"
 
 #include <algorithm>
 #include <iterator>

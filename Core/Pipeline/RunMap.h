@@ -5,7 +5,6 @@
 
 #include "Base/FixedPoint.h"
 #include "Extraction/Extraction.h"
-#include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/Requests.h"
 #include "Pipeline/FinalQuality.h"

@@ -15,7 +15,6 @@
 #include "Pipeline/Notices.h"
 #include "Pipeline/PlannedSurface.h"
 #include "Pipeline/QuadsOfShape.h"
-#include "Pipeline/RequestKeys.h"
 #include "Prepare/Frame.h"
 #include "Prepare/Prepare.h"
 #include "Prepare/Refine.h"

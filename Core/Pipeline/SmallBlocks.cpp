@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <iomanip>
 #include <limits>
-#include <memory>
 #include <sstream>
 #include <vector>
 

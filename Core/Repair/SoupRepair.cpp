@@ -17,7 +17,6 @@
 #include <boost/iterator/function_output_iterator.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <set>

@@ -7,7 +7,6 @@
 #include "Mesh/Mesh.h"
 #include "Sizes/AdaptiveSizes.h"
 #include "Sizes/CornerCurvatures.h"
-#include "Sizes/Curvature.h"
 
 #include <vector>
 

@@ -158,14 +158,13 @@ private:
         continue;
       }
       pollNowAndThen(v);
-      Index h = outgoing[v];
-      do
-      {
-        const Index last = Mesh::previous(h);
-        reach(mesh_.target(h), distance + toDouble(uv[Mesh::next(h)] - uv[h]).norm());
-        reach(mesh_.origin[last], distance + toDouble(uv[last] - uv[h]).norm());
-        h = mesh_.rotateCounterclockwise(h);
-      } while (h != kInvalidIndex && h != outgoing[v]);
+      forEachInFan(mesh_, outgoing[v],
+        [&, from = distance](Index h)
+        {
+          const Index last = Mesh::previous(h);
+          reach(mesh_.target(h), from + toDouble(uv[Mesh::next(h)] - uv[h]).norm());
+          reach(mesh_.origin[last], from + toDouble(uv[last] - uv[h]).norm());
+        });
     }
   }
 

@@ -3,7 +3,6 @@
 #include "Symmetry/PlaneCut.h"
 
 #include "Base/Progress.h"
-#include "Mesh/SurfaceEdit.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>

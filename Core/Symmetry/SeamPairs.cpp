@@ -7,7 +7,6 @@
 #include "Symmetry/Seams.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>

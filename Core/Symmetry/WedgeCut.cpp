@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Symmetry/WedgeCut.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/TryCount.h"
@@ -359,18 +360,12 @@ SurfacePart cutWedge(const Mesh& mesh, const Isometry& rotation, double toleranc
   }
   const std::vector<std::optional<double>> lengths =
     cutLengths(mesh, rotation.axis(), angles, tolerance);
-  std::vector<std::size_t> byLength;
-  for (std::size_t k = 0; k < angles.size(); ++k)
-  {
-    if (lengths[k])
-    {
-      byLength.push_back(k);
-    }
-  }
+  std::vector<Index> byLength =
+    idsWhere(angles.size(), [&](Index k) { return lengths[k].has_value(); });
   // Lengths that differ by rounding are equal.
   const double unit = std::max(tolerance, std::numeric_limits<double>::min());
   std::stable_sort(byLength.begin(), byLength.end(),
-    [&](std::size_t a, std::size_t b)
+    [&](Index a, Index b)
     { return std::floor(*lengths[a] / unit) < std::floor(*lengths[b] / unit); });
   std::optional<SurfacePart> best;
   bool isOther = false;
