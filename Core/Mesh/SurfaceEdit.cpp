@@ -103,8 +103,8 @@ void joinInner(Mesh& mesh, Index h, Index g)
   mesh.flags.edit()[h] = mesh.flags.edit()[g] = 0;
 }
 
-/// The edge of h, from a to b, comes to join the corners c and d opposite to it: of three new edges in each face two are
-/// old ones, and the new one is no feature. Corners and half-edges as in flipEdge().
+/// The edge of h, from a to b, comes to join the corners c and d opposite to it; the new one is no feature. Corners and
+/// half-edges as in flipEdge().
 void turnDiagonal(Mesh& mesh, Index h)
 {
   const Index g = mesh.twin[h];
