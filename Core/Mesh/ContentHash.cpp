@@ -85,8 +85,8 @@ std::uint64_t contentHash(const SurfaceInput& input, int threads)
 
 std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& input, int threads)
 {
-  // By name, so that an array that is new has to be looked at here: what is drawn, and the orders of sizes with it, has a
-  // key of its own, and so have requests.
+  // By name, so that an array that is new has to be looked at here. What is asked for has keys of its own, and with it
+  // what is drawn and the orders of its sizes.
   [[maybe_unused]] const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds,
     isDesigned, detectedFeatures, guideDirections, guideWeights, guideOrders, targetValences,
     sizing, sizingOrders, curvatures, drawn, curves, regularElsewhere, held, regularOnFeatures,
