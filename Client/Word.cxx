@@ -2,11 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Word.h"
 
+#include "FittedWords.h"
+
 #include "pqCoreUtilities.h"
 
+#include <QFontMetrics>
 #include <QLabel>
+#include <QResizeEvent>
 #include <QTimer>
 #include <QToolBar>
+
+#include <algorithm>
 
 namespace quadrille
 {
@@ -28,7 +34,8 @@ public:
   explicit Words(QWidget* parent) : QLabel(parent)
   {
     this->setObjectName(kName);
-    this->setWordWrap(true);
+    this->setTextFormat(Qt::PlainText);
+    this->setWordWrap(true); // or the bar would be as wide as the longest line
     this->setContentsMargins(kMargin, 0, 0, 0);
     this->setSizePolicy(
       QSizePolicy::Expanding, QSizePolicy::Ignored); // the bar stays as high as its buttons
@@ -52,11 +59,27 @@ public:
     this->refresh();
   }
 
+protected:
+  void resizeEvent(QResizeEvent* event) override
+  {
+    this->QLabel::resizeEvent(event);
+    this->refresh();
+  }
+
 private:
   void refresh()
   {
     const QString text = inOneLine(this->Progress, this->Said);
-    this->setText(text);
+    const QRect room = this->contentsRect();
+    const QFontMetrics letters(this->font());
+    const std::string fitted = fittedWords(text.toStdString(),
+      static_cast<std::size_t>(std::max(1, room.height() / letters.lineSpacing())),
+      [&](const std::string& line)
+      { return letters.horizontalAdvance(QString::fromStdString(line)) < room.width(); });
+    if (this->text().toStdString() != fitted)
+    {
+      this->setText(QString::fromStdString(fitted));
+    }
     this->setToolTip(text);
   }
 
