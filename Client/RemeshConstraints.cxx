@@ -321,12 +321,11 @@ bool isOnLine(vtkSMSourceProxy* filter, const Place& vertex)
   return isIt;
 }
 
-std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter)
+std::vector<Segment> featureEdges(vtkSMSourceProxy* filter)
 {
-  constexpr int kPlacesAnEdge = 4;
-  std::vector<Place> places;
+  std::vector<Segment> edges;
   forEach<vtkPolyData>(fetched(filter, kFeatureLines),
-    [&places](vtkPolyData& data)
+    [&edges](vtkPolyData& data)
     {
       vtkDataArray* boundary = data.GetCellData()->GetArray("Boundary");
       for (vtkIdType i = 0; boundary && i < data.GetNumberOfCells(); ++i)
@@ -336,19 +335,28 @@ std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter)
         data.GetCellPoints(i, size, ids);
         for (vtkIdType k = 0; boundary->GetComponent(i, 0) == 0 && k + 1 < size; ++k)
         {
-          Place from;
-          Place to;
-          data.GetPoint(ids[k], from.data());
-          data.GetPoint(ids[k + 1], to.data());
-          for (int step = 0; step < kPlacesAnEdge; ++step)
-          {
-            const double t = (step + 0.5) / kPlacesAnEdge;
-            places.push_back({ (1 - t) * from[0] + t * to[0], (1 - t) * from[1] + t * to[1],
-              (1 - t) * from[2] + t * to[2] });
-          }
+          edges.emplace_back();
+          data.GetPoint(ids[k], edges.back()[0].data());
+          data.GetPoint(ids[k + 1], edges.back()[1].data());
         }
       }
     });
+  return edges;
+}
+
+std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter)
+{
+  constexpr int kPlacesAnEdge = 4;
+  std::vector<Place> places;
+  for (const auto& [from, to] : featureEdges(filter))
+  {
+    for (int step = 0; step < kPlacesAnEdge; ++step)
+    {
+      const double t = (step + 0.5) / kPlacesAnEdge;
+      places.push_back({ (1 - t) * from[0] + t * to[0], (1 - t) * from[1] + t * to[1],
+        (1 - t) * from[2] + t * to[2] });
+    }
+  }
   return places;
 }
 

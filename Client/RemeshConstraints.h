@@ -71,7 +71,10 @@ std::vector<Place> irregularVertices(vtkSMSourceProxy* filter);
 /// Whether a vertex of the quads is on a feature or boundary, where it stays.
 bool isOnLine(vtkSMSourceProxy* filter, const Place& vertex);
 
-/// Places on the feature curves of the quads that are there, four to an edge.
+/// The edges on the feature curves of the quads that are there, without boundaries.
+std::vector<Segment> featureEdges(vtkSMSourceProxy* filter);
+
+/// Places on these, four to an edge.
 std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter);
 
 /// The constraint of the filter that draws a feature curve through a place, up to a distance; null: none does.

@@ -48,6 +48,8 @@ constexpr std::size_t kMostUnseen = 2;  // samples side by side with which a lin
 constexpr std::size_t kLeastPlaces = 3; // of a line
 constexpr double kBallReach = 14;       // pixels from the centre of a ball
 constexpr double kSameBall = 0.5;       // edge lengths
+constexpr double kBesideCut = 0.1;      // edge lengths between a cut of the surface and features
+constexpr double kBesideDrag = 0.3;     // the same of a line through samples
 constexpr int kBallsOutput = 4;
 constexpr int kConstraintsOutput = 5;
 constexpr float kBeforeAllOthers = 10; // priority of observers
@@ -97,8 +99,8 @@ QString hintOf(Tool tool)
              "Escape ends it.";
     case Tool::Loop:
       return "Loop: drag across a body for a loop round it, or back to where the drag began, with "
-             "the left button. "
-             "Escape ends it.";
+             "the left button; a loop goes round something and across no sharp edge. Escape ends "
+             "it.";
     case Tool::Feature:
       return "Feature: drag over the surface with the left button where edges of the quads are to "
              "run; click on a feature curve to clear it. Escape ends it.";
@@ -473,11 +475,7 @@ std::optional<pqQuadrilleDrawing::Line> pqQuadrilleDrawing::drawnLine(
   {
     line.places.push_back(places[id]);
   }
-  if (!isWhole)
-  {
-    line.remark = "Only its longest part is drawn, as the mouse passed an outline: turn the view "
-                  "to draw the rest.";
-  }
+  line.isWhole = isWhole;
   return line;
 }
 
@@ -500,7 +498,10 @@ void pqQuadrilleDrawing::finishLine(vtkSMSourceProxy* filter)
     return;
   }
   const char* source = this->Current == Tool::Feature ? "QuadFeatureCurve" : "QuadStroke";
-  this->perform(filter, { source, { { "Points", coordinatesOf(line->places) } } }, line->remark);
+  this->perform(filter, { source, { { "Points", coordinatesOf(line->places) } } },
+    line->isWhole ? QString()
+                  : QString("Only its longest part is drawn, as the mouse passed an outline: turn "
+                            "the view to draw the rest."));
 }
 
 //-----------------------------------------------------------------------------
@@ -535,7 +536,7 @@ void pqQuadrilleDrawing::finishLoop(vtkSMSourceProxy* filter)
   if (quadrille::isClosedPath(this->Path, kNearEnd * this->pixelRatio()))
   {
     const std::optional<Line> line = this->drawnLine(filter, true);
-    if (line)
+    if (line && this->crossesNoFeature(filter, line->places, kBesideDrag))
     {
       this->perform(filter, { "QuadLoop", { { "Points", coordinatesOf(line->places) } } });
     }
@@ -576,6 +577,10 @@ void pqQuadrilleDrawing::finishLoop(vtkSMSourceProxy* filter)
         "drag began.");
     return;
   }
+  if (!this->crossesNoFeature(filter, curve, kBesideCut))
+  {
+    return;
+  }
   const double edge = quadrille::edgeLength(filter).value_or(0);
   std::vector<Place> closed = curve;
   closed.push_back(curve.front());
@@ -586,6 +591,22 @@ void pqQuadrilleDrawing::finishLoop(vtkSMSourceProxy* filter)
   }
   line.pop_back();
   this->perform(filter, { "QuadLoop", { { "Points", coordinatesOf(line) } } });
+}
+
+//-----------------------------------------------------------------------------
+bool pqQuadrilleDrawing::crossesNoFeature(
+  vtkSMSourceProxy* filter, const std::vector<Place>& loop, double beside)
+{
+  std::vector<Place> closed = loop;
+  closed.push_back(loop.front());
+  const double within = beside * quadrille::edgeLength(filter).value_or(0);
+  if (quadrille::crossesEdge(closed, quadrille::featureEdges(filter), within))
+  {
+    say("Nothing was drawn: a sharp edge crosses this loop, and loops cross none. Draw it round "
+        "something on one side of sharp edges.");
+    return false;
+  }
+  return true;
 }
 
 //-----------------------------------------------------------------------------
@@ -748,7 +769,13 @@ void pqQuadrilleDrawing::finishConnection(vtkSMSourceProxy* filter)
     const std::optional<Place> end = this->ballAt(filter, this->Path.back(),
       "The drag does not end on a ball: drag from one ball to another one.");
     const std::optional<Line> drawn = end ? this->drawnLine(filter, false) : std::nullopt;
-    if (!drawn)
+    if (drawn && !drawn->isWhole)
+    {
+      // From one end to the part that is left the course would be another one than was drawn.
+      say("Nothing was drawn: the drag passes an outline, so that a part of its way is not seen. "
+          "Turn the view until all of it is seen, or click on the two balls.");
+    }
+    if (!drawn || !drawn->isWhole)
     {
       return;
     }

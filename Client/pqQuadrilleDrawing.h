@@ -95,7 +95,7 @@ private:
   struct Line
   {
     std::vector<quadrille::Place> places;
-    QString remark; ///< on what is left of what was drawn; empty: all of it
+    bool isWhole = true; ///< or else the longest part of what was drawn
   };
   /// A line along what was drawn; none, with a word to the user, where it cannot be had.
   std::optional<Line> drawnLine(vtkSMSourceProxy* filter, bool isClosed);
@@ -108,6 +108,9 @@ private:
   void finishSize(vtkSMSourceProxy* filter);
   void finishMove(vtkSMSourceProxy* filter);
   void finishConnection(vtkSMSourceProxy* filter);
+  /// Whether that of a loop holds, or else a word to the user. beside: edge lengths within which they cross.
+  bool crossesNoFeature(
+    vtkSMSourceProxy* filter, const std::vector<quadrille::Place>& loop, double beside);
   /// The irregular vertex that is seen at the pixel, or none.
   std::optional<quadrille::Place> ballAt(
     vtkSMSourceProxy* filter, const quadrille::Pixel& pixel, const char* ifNone);
