@@ -26,6 +26,9 @@ struct FailedParts
   std::string countText() const;
   /// "<why>; <count> has no quads and was left out"; empty where none was left out.
   std::string text() const;
+  /// Why what was asked for cannot be: more components have no quads than the `without` that had none without it.
+  /// Empty where there are no more.
+  std::string lostText(std::size_t without) const;
 };
 
 } // namespace quadrille

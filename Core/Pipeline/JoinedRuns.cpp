@@ -438,6 +438,13 @@ std::string FailedParts::text() const
     (components == 1 ? ", has no quads and was left out" : ", have no quads and were left out");
 }
 
+std::string FailedParts::lostText(std::size_t without) const
+{
+  return components <= without
+    ? std::string()
+    : "with it " + countText() + (components == 1 ? ", has no quads: " : ", have no quads: ") + why;
+}
+
 std::string FailedParts::countText() const
 {
   std::ostringstream text;

@@ -4,9 +4,11 @@
 /// valences, with sizes, or whose features are to be none; and where it lies on the surface, see ConstraintPlacement.
 #pragma once
 
+#include "Mesh/Requests.h"
 #include "Requests/GuidedPlaces.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,9 @@ struct PlacedConstraint
     guided;              ///< of strokes: some of the places where they ask for a direction
   std::size_t curve = 0; ///< of connections and cycles: its place in SurfaceInput::curves
   std::string whyNot;    ///< empty, or why it is not followed; its path is then a point
+  /// Of moves: the irregular vertices that the quads are to have with all moves, on features and boundaries too, where
+  /// the quads without them show the others; null: not known.
+  std::shared_ptr<const std::vector<ValencePlace>> irregular;
 };
 
 struct PlacedConstraints

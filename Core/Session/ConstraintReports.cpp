@@ -197,6 +197,15 @@ Vector3 placeInQuads(const IrregularEdit& edit, const Vector3& place, int asked)
         { return (a - place).squaredNorm() < (b - place).squaredNorm(); });
 }
 
+/// Whether it is the place of a vertex that a move has made one with its own, which is where that was seen.
+bool isJoined(const IrregularEdit& edit, const Vector3& place, int asked)
+{
+  constexpr std::size_t kChangesOfTwoAtThird = 3;
+  return edit.operation == IrregularOperation::Move && asked == kRegularValence &&
+    edit.changes.size() == kChangesOfTwoAtThird &&
+    placeInQuads(edit, place, asked) == edit.points.back();
+}
+
 /// The vertices that it changed last have their valences in the quads; and of the last operation: all others are
 /// where they were. The deviation is that of the vertices.
 ConstraintMeasure SessionJudge::irregularEdit(const IrregularEdit& edit)
@@ -208,6 +217,10 @@ ConstraintMeasure SessionJudge::irregularEdit(const IrregularEdit& edit)
   measure.isMet = true;
   for (const auto& [place, asked] : part_->valences)
   {
+    if (isJoined(edit, place, asked))
+    {
+      continue;
+    }
     const ConstraintMeasure there = measures_.valence(placeInQuads(edit, place, asked), asked);
     const bool isFarther = !(there.deviation <= measure.deviation); // or there is none
     if (isFarther || (measure.isMet && !there.isMet))
@@ -267,7 +280,8 @@ std::vector<Vector3> SessionJudge::otherChanges()
     {
       told.push_back(place);
       const Vector3 looked = edit != nullptr ? placeInQuads(*edit, place, valence) : place;
-      if (!measures_.valence(looked, valence).isMet)
+      const bool isLooked = edit == nullptr || !isJoined(*edit, place, valence);
+      if (isLooked && !measures_.valence(looked, valence).isMet)
       {
         failed.push_back(looked);
       }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -122,11 +123,16 @@ public:
   UncutResult make()
   {
     UncutResult made = runWithout(isLeftOut_);
+    if (rest_.empty() || !fails(made))
+    {
+      return made;
+    }
     const std::vector<PlacedConstraint> ofAll = made_;
     const std::vector<std::string> noticesOfAll = notices_;
-    if (fails(made) && (rest_.empty() || fails(runWithout(withFirst(0)))))
+    const bool failsWithout = failsWithoutAny();
+    if (failsWithout || !fails(made))
     {
-      made_ = ofAll; // without them it fails, too
+      made_ = ofAll; // without them it is so, too
       notices_ = noticesOfAll;
       return made;
     }
@@ -170,11 +176,40 @@ private:
     return none;
   }
 
-  bool fails(const UncutResult& made) const
+  static bool failsAltogether(const UncutResult& made)
   {
     const Status& status = made.remeshed.status;
     return !status.ok() && status.code != StatusCode::Cancelled &&
       status.code != StatusCode::TooLarge;
+  }
+
+  /// Altogether, or in more components than without what was drawn.
+  bool fails(const UncutResult& made) const
+  {
+    return failsAltogether(made) || made.remeshed.failed.components > withoutQuads_;
+  }
+
+  /// Whether it fails altogether without the rest; else it is known then how many components do.
+  bool failsWithoutAny()
+  {
+    std::vector<PlacedConstraint> placed = placed_;
+    const ResultKey key = known_.store == nullptr
+      ? 0
+      : keyOfFailed(withoutDrawn(input_, withFirst(0), placed), options_);
+    const auto known = findIn<std::size_t>(known_.store, key);
+    if (known)
+    {
+      withoutQuads_ = *known;
+      return false;
+    }
+    const UncutResult without = runWithout(withFirst(0));
+    withoutQuads_ = without.remeshed.failed.components;
+    const bool isWhole = without.remeshed.status.ok() && !wasStopped_;
+    if (isWhole && known_.store != nullptr)
+    {
+      known_.store->put(key, std::make_shared<std::size_t>(withoutQuads_), sizeof(std::size_t));
+    }
+    return failsAltogether(without);
   }
 
   /// The first `count` of the rest.
@@ -213,7 +248,9 @@ private:
       std::back_inserter(before), [this](std::size_t i) { return nameOfPlaced(placed_[i]); });
     const UncutResult with = runWithout(withFirst(r + 1));
     isLeftOut_[rest_[r]] = true;
-    whyNot_.emplace_back(rest_[r], cannotBeMet(before, with.remeshed.status.message));
+    const std::string lost = with.remeshed.failed.lostText(withoutQuads_);
+    whyNot_.emplace_back(
+      rest_[r], cannotBeMet(before, lost.empty() ? with.remeshed.status.message : lost));
     rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(r));
   }
 
@@ -225,7 +262,8 @@ private:
   std::vector<bool> isLeftOut_;
   std::vector<std::size_t> rest_; ///< that may be left out, and are not so far
   std::vector<std::pair<std::size_t, std::string>> whyNot_;
-  bool wasStopped_ = false; ///< no run may follow
+  std::size_t withoutQuads_ = 0; ///< connected components, whatever is drawn
+  bool wasStopped_ = false;      ///< no run may follow
   // Of the last run:
   std::vector<PlacedConstraint> made_;
   std::vector<std::string> notices_;

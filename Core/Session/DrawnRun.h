@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Quads with what is drawn on a surface. Where they cannot be made, what cannot be met together with all that was
-/// drawn before it is left out, as in a session.
+/// Quads with what is drawn on a surface. Where they cannot be made, or more connected components have none than
+/// without it, what cannot be met together with all that was drawn before it is left out, as in a session.
 #pragma once
 
 #include "Session/Moves.h"

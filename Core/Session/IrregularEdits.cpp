@@ -10,7 +10,6 @@
 #include "Mesh/Distance.h"
 #include "Mesh/Topology.h"
 #include "Pipeline/FaceDivision.h"
-#include "Session/IrregularMatch.h"
 
 #include <algorithm>
 #include <array>
@@ -52,7 +51,7 @@ public:
   {
   }
 
-  void run()
+  std::vector<Vector3> run()
   {
     edit_.before = irregular_;
     edit_.changes.clear();
@@ -75,6 +74,7 @@ public:
         break;
     }
     takeChanges();
+    return way_;
   }
 
 private:
@@ -96,10 +96,22 @@ private:
         ", but the quads have none inside: add a pair first");
     }
     return *std::min_element(irregular_.begin(), irregular_.end(),
-      [&](const IrregularVertex& a, const IrregularVertex& b) {
-        return (a.place - edit_.points[i]).squaredNorm() <
-          (b.place - edit_.points[i]).squaredNorm();
-      });
+      [&](const IrregularVertex& a, const IrregularVertex& b)
+      { return distanceTo(a, edit_.points[i]) < distanceTo(b, edit_.points[i]); });
+  }
+  /// Where it is shown; one without edges there is shown at its own place.
+  ShownPlace shownPlaceOf(const IrregularVertex& vertex) const
+  {
+    static const ShownPlaces none;
+    const ShownPlaces& shown = where_.shown == nullptr ? none : *where_.shown;
+    const auto found = shown.find(vertex.place);
+    return found == shown.end() ? ShownPlace{ vertex.place, 0 } : found->second;
+  }
+  /// Of its place itself who gives exactly that, else of where it is shown.
+  double distanceTo(const IrregularVertex& vertex, const Vector3& given) const
+  {
+    const double distance = (vertex.place - given).norm();
+    return distance <= where_.sameWithin ? 0 : (shownPlaceOf(vertex).point - given).norm();
   }
   /// Two different ones.
   std::pair<IrregularVertex, IrregularVertex> twoVertices() const
@@ -133,6 +145,31 @@ private:
     }
     return place;
   }
+  /// Another irregular vertex than the one that is moved, shown where that goes; null: none is.
+  const IrregularVertex* shownNear(const IrregularVertex& moved, std::size_t i) const
+  {
+    constexpr double kJoinsWithin = 0.5; // edge lengths
+    const IrregularVertex* nearest = nullptr;
+    for (const IrregularVertex& vertex : irregular_)
+    {
+      const double within =
+        std::max(where_.sameWithin, kJoinsWithin * shownPlaceOf(vertex).edgeLength);
+      const double distance = distanceTo(vertex, edit_.points[i]);
+      if (!(vertex == moved) && distance <= within &&
+        (nearest == nullptr || distance < distanceTo(*nearest, edit_.points[i])))
+      {
+        nearest = &vertex;
+      }
+    }
+    return nearest;
+  }
+  /// Where two that become one are: where the one that stayed is shown, unless no vertex can be put there.
+  Vector3 placeShown(const IrregularVertex& vertex) const
+  {
+    const Vector3 shown = where_.places.nearestPlace(shownPlaceOf(vertex).point).point;
+    const bool isSame = (shown - vertex.place).norm() <= where_.sameWithin;
+    return isSame || isOnCurve(shown) || isWithoutMap(shown) ? vertex.place : shown;
+  }
   /// Of a feature or a boundary.
   bool isOnCurve(const Vector3& place) const
   {
@@ -143,21 +180,28 @@ private:
   /// Quads that fill a face without a map have irregular vertices that no operation can take.
   void requireMap(const Vector3& place) const
   {
-    for (const auto& [a, b, c] : where_.fixed.withoutMap)
+    if (isWithoutMap(place))
     {
-      if ((nearestOnTriangle(place, a, b, c) - place).norm() <= where_.sameWithin)
-      {
-        refuse(name_, " needs quads of a map, but the face between sharp edges at ",
-          placeText(place), " has no map with quads of this size: ask for more quads");
-      }
+      refuse(name_, " needs quads of a map, but the face between sharp edges at ", placeText(place),
+        " has no map with quads of this size: ask for more quads");
     }
+  }
+  bool isWithoutMap(const Vector3& place) const
+  {
+    return std::any_of(where_.fixed.withoutMap.begin(), where_.fixed.withoutMap.end(),
+      [&](const std::array<Vector3, 3>& face)
+      {
+        return (nearestOnTriangle(place, face[0], face[1], face[2]) - place).norm() <=
+          where_.sameWithin;
+      });
   }
   void add(const Vector3& place, int index) { indices_[place] += index; }
 
   void move()
   {
     const IrregularVertex from = vertexNear(0);
-    const Vector3 to = placeNear(1);
+    const IrregularVertex* other = shownNear(from, 1);
+    const Vector3 to = other == nullptr ? placeNear(1) : placeShown(*other);
     if (to == from.place)
     {
       refuse(name_, ": the irregular vertex of valence ", from.valence, " is at ",
@@ -165,6 +209,12 @@ private:
     }
     add(from.place, -indexOf(from));
     add(to, indexOf(from));
+    if (other != nullptr && other->place != to)
+    {
+      add(other->place, -indexOf(*other));
+      add(to, indexOf(*other));
+    }
+    way_ = { from.place, to };
   }
 
   void split()
@@ -259,6 +309,7 @@ private:
   const PlacesOfEdits& where_;
   const std::vector<IrregularVertex>& irregular_;
   std::map<Vector3, int, PlaceOrder> indices_; ///< by how much they grow
+  std::vector<Vector3> way_;                   ///< of a move
 };
 
 } // namespace
@@ -377,10 +428,10 @@ std::vector<HeldVertex> featureVertices(
   return vertices;
 }
 
-void resolveEdit(IrregularEdit& edit, const std::string& name, const PlacesOfEdits& where,
-  const std::vector<IrregularVertex>& irregular)
+std::vector<Vector3> resolveEdit(IrregularEdit& edit, const std::string& name,
+  const PlacesOfEdits& where, const std::vector<IrregularVertex>& irregular)
 {
-  EditResolution(edit, name, where, irregular).run();
+  return EditResolution(edit, name, where, irregular).run();
 }
 
 //------------------------------------------------------------------------------

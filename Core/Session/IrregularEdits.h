@@ -6,6 +6,7 @@
 #include "Pipeline/Pipeline.h"
 #include "Requests/SurfacePlaces.h"
 #include "Session/Constraints.h"
+#include "Session/IrregularMatch.h"
 
 #include <array>
 #include <map>
@@ -62,12 +63,16 @@ struct PlacesOfEdits
   const SurfacePlaces& places;
   const FixedPlaces& fixed;
   double sameWithin = 0; ///< places that are no farther apart are one
+  /// Of irregular vertices, as places are given by what is seen; a vertex without one is looked for at its own place.
+  const ShownPlaces* shown = nullptr;
 };
 
-/// Fills before and changes of the operation. Throws InvalidInput, with name and place, where there is no such vertex,
-/// a place cannot be taken, a valence would be out of range, or the sum of indices would change.
-void resolveEdit(IrregularEdit& edit, const std::string& name, const PlacesOfEdits& where,
-  const std::vector<IrregularVertex>& irregular);
+/// Fills before and changes of the operation. A move that ends within half an edge length of where another irregular
+/// vertex is shown makes one of the two there. Returns of a move its vertex and where that goes, else nothing. Throws
+/// InvalidInput, with name and place, where there is no such vertex, a place cannot be taken, a valence would be out of
+/// range, or the sum of indices would change.
+std::vector<Vector3> resolveEdit(IrregularEdit& edit, const std::string& name,
+  const PlacesOfEdits& where, const std::vector<IrregularVertex>& irregular);
 
 /// The irregular vertices that operations lead to, one after the other.
 class IrregularList

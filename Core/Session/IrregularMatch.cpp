@@ -3,6 +3,7 @@
 #include "Session/IrregularMatch.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <numeric>
 #include <tuple>
@@ -150,6 +151,51 @@ std::vector<IrregularVertex> irregularPoints(const QuadMesh& quads)
     [](const IrregularVertex& a, const IrregularVertex& b)
     { return PlaceOrder()(a.place, b.place); });
   return irregular;
+}
+
+ShownPlaces shownPlaces(const std::vector<IrregularVertex>& irregular, const QuadMesh& quads)
+{
+  constexpr double kReachOfSmoothing = 2; // edge lengths
+  std::vector<std::uint8_t> isOnLine = quads.onBoundary;
+  for (const QuadLine& line : quads.lines)
+  {
+    isOnLine[line.a] = isOnLine[line.b] = 1;
+  }
+  std::vector<double> length(quads.points.size(), 0), edges(quads.points.size(), 0);
+  for (const std::array<Index, 4>& quad : quads.quads)
+  {
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const Index a = quad[i], b = quad[(i + 1) % 4];
+      const double edge = (quads.points[a] - quads.points[b]).norm();
+      length[a] += edge;
+      length[b] += edge;
+      ++edges[a];
+      ++edges[b];
+    }
+  }
+  std::vector<IrregularVertex> points;
+  std::vector<ShownPlace> places;
+  std::vector<double> reach;
+  for (std::size_t p = 0; p < quads.points.size(); ++p)
+  {
+    if (isOnLine[p] == 0 && quads.valence[p] != kRegularValence && edges[p] > 0)
+    {
+      points.push_back({ quads.points[p], quads.valence[p] });
+      places.push_back({ quads.points[p], length[p] / edges[p] });
+      reach.push_back(kReachOfSmoothing * places.back().edgeLength);
+    }
+  }
+  const IrregularMatch match = matchIrregular(points, irregular, reach);
+  ShownPlaces shown;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (match.actual[i])
+    {
+      shown[irregular[*match.actual[i]].place] = places[i];
+    }
+  }
+  return shown;
 }
 
 void change(std::vector<IrregularVertex>& shown, const IrregularEdit::Change& made)

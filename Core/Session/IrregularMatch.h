@@ -7,6 +7,7 @@
 #include "Session/Constraints.h"
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,18 @@ IrregularMatch matchIrregular(const std::vector<IrregularVertex>& expected,
 /// Points of the quads whose valence is not that of a regular one, on features and boundaries too; on boundaries it is
 /// one more than the edges. In the order of places.
 std::vector<IrregularVertex> irregularPoints(const QuadMesh& quads);
+
+/// Where the quads show an irregular vertex, from which smoothing has moved it.
+struct ShownPlace
+{
+  Vector3 point = Vector3::Zero();
+  double edgeLength = 0; ///< of the quads there, the mean
+};
+/// By the places of the vertices.
+using ShownPlaces = std::map<Vector3, ShownPlace, PlaceOrder>;
+/// Of irregular vertices inside those that have a partner of the same valence among the points of the quads inside, two
+/// edge lengths away at most.
+ShownPlaces shownPlaces(const std::vector<IrregularVertex>& irregular, const QuadMesh& quads);
 
 /// The list as it is after a change: of those of the valence before the one nearest to the place goes, and one of the
 /// valence after comes to it.

@@ -7,6 +7,7 @@
 #include "Pipeline/RequestKeys.h"
 #include "Session/ComposedInput.h"
 #include "Session/IrregularEdits.h"
+#include "Session/IrregularMatch.h"
 #include "Session/SessionText.h"
 
 #include <algorithm>
@@ -57,26 +58,32 @@ void change(
 /// What moves find in the quads without them.
 struct QuadsBefore
 {
-  std::vector<IrregularVertex> irregular;
+  std::vector<IrregularVertex> irregular; ///< that can be moved
+  ShownPlaces shown;                      ///< where these are seen
+  std::vector<IrregularVertex> points;    ///< all irregular points of the quads
   FixedPlaces fixed;
   std::vector<HeldVertex> onFeatures;
-  double edgeLength = 0; ///< that was asked for
+  double edgeLength = 0;        ///< that was asked for
+  std::size_t withoutQuads = 0; ///< connected components
 };
 
 QuadsBefore quadsBefore(const SurfaceInput& surface, const RemeshResult& without, int threads)
 {
   const MadeSurface made{ without.surface };
   const OnCurves onCurves = findOnCurves(made, threads);
-  return { irregularVertices(made, without.turns, onCurves, surface.drawn.valences,
-             kTakenVertex * without.targetEdgeLength),
+  std::vector<IrregularVertex> irregular = irregularVertices(
+    made, without.turns, onCurves, surface.drawn.valences, kTakenVertex * without.targetEdgeLength);
+  ShownPlaces shown = shownPlaces(irregular, without.quads);
+  return { std::move(irregular), std::move(shown), irregularPoints(without.quads),
     fixedPlaces(made, onCurves, without.withoutMap), featureVertices(made, without.onFeatures),
-    without.targetEdgeLength };
+    without.targetEdgeLength, without.failed.components };
 }
 
 std::size_t bytesOfQuadsBefore(const QuadsBefore& before)
 {
-  return sizeof(before) + bytesOf(before.irregular) + bytesOf(before.fixed.edges) +
-    bytesOf(before.fixed.withoutMap) + bytesOf(before.onFeatures);
+  return sizeof(before) + bytesOf(before.irregular) +
+    before.shown.size() * sizeof(ShownPlaces::value_type) + bytesOf(before.points) +
+    bytesOf(before.fixed.edges) + bytesOf(before.fixed.withoutMap) + bytesOf(before.onFeatures);
 }
 
 /// Moves as the operations of a session, resolved one after the other.
@@ -84,8 +91,8 @@ class MoveList
 {
 public:
   MoveList(const PlacesOfSession& where, const QuadsBefore& before)
-    : where_(where), irregular_(before.irregular), fixed_(before.fixed),
-      onFeatures_(before.onFeatures)
+    : where_(where), irregular_(before.irregular), shown_(before.shown), points_(before.points),
+      fixed_(before.fixed), onFeatures_(before.onFeatures), edgeLength_(before.edgeLength)
   {
   }
 
@@ -95,29 +102,31 @@ public:
     IrregularEdit edit;
     edit.operation = IrregularOperation::Move;
     edit.points = move.path;
+    std::vector<Vector3> way;
     try
     {
-      resolveEdit(edit, "move " + std::to_string(move.source),
-        { where_.places, fixed_, where_.sameWithin }, irregular_);
+      way = resolveEdit(edit, "move " + std::to_string(move.source),
+        { where_.places, fixed_, where_.sameWithin, &shown_ }, irregular_);
     }
     catch (const InvalidInput& error)
     {
       move.whyNot = error.what();
       return;
     }
-    // Of the two changes that to a regular vertex is at the begin, but where it comes to another irregular vertex.
-    const Vector3 from = nearest(move.path[0]).place;
-    move.valence = nearest(move.path[0]).valence;
-    Vector3 to = where_.places.nearestPlace(move.path[1]).point;
-    move.distance = (move.path[1] - to).norm();
+    move.distance = (move.path[1] - where_.places.nearestPlace(move.path[1]).point).norm();
+    move.path = way;
     edit.upon = list_.links();
     edit.onFeatures = onFeatures_;
     edit.withoutMap = fixed_.insideOfFaces;
+    edit.shown = points_;
     list_.apply(id, 0, edit);
     change(irregular_, edit.changes);
-    to = list_.sameAs(to, where_.sameWithin);
-    move.path = { from, to };
-    move.valence = list_.valenceAt(to);
+    for (const IrregularEdit::Change& made : edit.changes)
+    {
+      quadrille::change(points_, made);
+      shown_[made.place] = { made.place, edgeLength_ }; // what was moved is not smoothed
+    }
+    move.valence = list_.valenceAt(move.path[1]);
     auto constraint = std::make_shared<SessionConstraint>();
     constraint->id = id;
     constraint->content = std::move(edit);
@@ -127,17 +136,13 @@ public:
   const SessionConstraints& constraints() const { return constraints_; }
 
 private:
-  const IrregularVertex& nearest(const Vector3& place) const
-  {
-    return *std::min_element(irregular_.begin(), irregular_.end(),
-      [&](const IrregularVertex& a, const IrregularVertex& b)
-      { return (a.place - place).squaredNorm() < (b.place - place).squaredNorm(); });
-  }
-
   const PlacesOfSession& where_;
   std::vector<IrregularVertex> irregular_;
+  ShownPlaces shown_;
+  std::vector<IrregularVertex> points_;
   const FixedPlaces& fixed_;
   const std::vector<HeldVertex>& onFeatures_;
+  double edgeLength_;
   IrregularList list_;
   SessionConstraints constraints_;
 };
@@ -153,10 +158,11 @@ void tellLeftOut(const std::vector<PlacedConstraint>& placed, std::vector<std::s
   }
 }
 
-/// Of what the quads without moves depend on.
-ResultKey keyOfQuadsBefore(const SurfaceInput& input, const RemeshOptions& options)
+/// Of what the quads without moves depend on; first: what is kept of them.
+ResultKey keyOfQuads(const char* first, const SurfaceInput& input, const RemeshOptions& options)
 {
   KeyMaker key(contentHash(input, options.threads));
+  key.add(std::string(first));
   key.add(requestsKey(input), input.sizingOrders, input.drawn.cleared);
   for (const FeatureRequest& feature : input.drawn.features)
   {
@@ -186,6 +192,35 @@ UncutResult runWithoutMoves(
   return made;
 }
 
+/// Why the last run is not what the moves ask for; empty where it is.
+std::string whyNotMoved(const RemeshResult& made, const QuadsBefore& before)
+{
+  if (!isForOtherReasons(made.status))
+  {
+    return made.status.message;
+  }
+  const std::string lost = made.failed.lostText(before.withoutQuads);
+  return lost.empty() ? lostMapText(made.withoutMap, before.fixed.insideOfFaces) : lost;
+}
+
+/// To those that are done, all irregular vertices of the quads with them.
+void tellIrregular(
+  const std::optional<std::vector<IrregularVertex>>& shown, std::vector<PlacedConstraint>& placed)
+{
+  auto irregular = std::make_shared<std::vector<ValencePlace>>();
+  for (const IrregularVertex& vertex : shown.value_or(std::vector<IrregularVertex>()))
+  {
+    irregular->push_back({ vertex.place, vertex.valence });
+  }
+  for (PlacedConstraint& constraint : placed)
+  {
+    if (isMove(constraint) && constraint.whyNot.empty() && shown)
+    {
+      constraint.irregular = irregular;
+    }
+  }
+}
+
 UncutResult makeMoves(const SurfaceInput& input, const RemeshOptions& options, const RemeshRun& run,
   const PlacesOfSession& where, const QuadsBefore& before, std::vector<PlacedConstraint>& placed,
   std::vector<std::string>& notices)
@@ -200,11 +235,11 @@ UncutResult makeMoves(const SurfaceInput& input, const RemeshOptions& options, c
   }
   std::map<int, std::string> leftOut;
   LinePlacements lines;
-  bool holdsFeatures = true;
+  std::string whyNotHeld; // irregular vertices on features
   while (true)
   {
     ComposedInput composed =
-      composeInput(input, where, lines, list.constraints(), leftOut, holdsFeatures);
+      composeInput(input, where, lines, list.constraints(), leftOut, whyNotHeld.empty());
     const bool isHeld = composed.input.regularOnFeatures;
     composed.input.points = input.points;
     composed.input.polygonOffsets = input.polygonOffsets;
@@ -217,18 +252,22 @@ UncutResult makeMoves(const SurfaceInput& input, const RemeshOptions& options, c
       last = composed.parts[c].whyNot.empty() ? id : last;
     }
     UncutResult made = run(std::move(composed.input), options);
-    const std::string whyNot = isForOtherReasons(made.remeshed.status)
-      ? lostMapText(made.remeshed.withoutMap, before.fixed.insideOfFaces)
-      : made.remeshed.status.message;
+    const bool wasStopped = !made.remeshed.stopped.empty();
+    const std::string whyNot = wasStopped ? std::string() : whyNotMoved(made.remeshed, before);
     if (!whyNot.empty() && isHeld)
     {
-      notices.push_back(
-        "moves may change irregular vertices on features, as these cannot be held: " + whyNot);
-      holdsFeatures = false;
+      whyNotHeld = whyNot;
       continue;
     }
     if (whyNot.empty() || !last)
     {
+      if (!whyNotHeld.empty())
+      {
+        made.remeshed.notices.push_back(
+          "moves may change irregular vertices on features, as these cannot be held: " +
+          whyNotHeld);
+      }
+      tellIrregular(composed.shown, placed);
       tellLeftOut(placed, notices);
       return made;
     }
@@ -237,6 +276,11 @@ UncutResult makeMoves(const SurfaceInput& input, const RemeshOptions& options, c
 }
 
 } // namespace
+
+ResultKey keyOfFailed(const SurfaceInput& input, const RemeshOptions& options)
+{
+  return keyOfQuads("failed components", input, options);
+}
 
 bool asksForMoves(const std::vector<PlacedConstraint>& placed)
 {
@@ -247,7 +291,7 @@ UncutResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& opti
   const RemeshRun& run, const KnownOfMoves& known, std::vector<PlacedConstraint>& placed,
   std::vector<std::string>& notices)
 {
-  const ResultKey key = known.store != nullptr ? keyOfQuadsBefore(input, options) : 0;
+  const ResultKey key = known.store != nullptr ? keyOfQuads("moves", input, options) : 0;
   std::shared_ptr<QuadsBefore> before = findIn<QuadsBefore>(known.store, key);
   if (!before)
   {

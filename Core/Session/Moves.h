@@ -28,6 +28,9 @@ using RemeshRun = std::function<UncutResult(SurfaceInput, const RemeshOptions&)>
 
 bool asksForMoves(const std::vector<PlacedConstraint>& placed);
 
+/// Of how many connected components of an input have no quads.
+ResultKey keyOfFailed(const SurfaceInput& input, const RemeshOptions& options);
+
 /// What earlier calls have found out, all of it of this input.
 struct KnownOfMoves
 {
@@ -38,10 +41,11 @@ struct KnownOfMoves
 
 /// Makes the quads of the input, finds the irregular vertex nearest to the begin of each move, and makes the quads with
 /// it at the end instead; all other irregular vertices stay where they are. The moves are done in their order, each in
-/// what those before it have left. Those that cannot be met, together with what else is asked for, are left out, the
-/// last one first.
+/// what those before it have left. Those that cannot be met, together with what else is asked for, or with which more
+/// connected components have no quads than without moves, are left out, the last one first.
 /// placed: of its moves the path becomes the vertex's old place and its new one, the place of the surface nearest to
-/// what was drawn, and they get the vertex's valence; or whyNot. notices: what the user should know.
+/// what was drawn or that of another vertex shown there, and they get the valence that is to be there and all irregular
+/// vertices; or whyNot. notices: what is not done.
 UncutResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
   const RemeshRun& run, const KnownOfMoves& known, std::vector<PlacedConstraint>& placed,
   std::vector<std::string>& notices);

@@ -368,7 +368,9 @@ int Session::add(ConstraintContent content)
         now ? now->report.status.message : "the run was stopped");
     }
     const PlacesOfSession where = data_->places(settings());
-    resolveEdit(*edit, name, { where.places, now->fixed, where.sameWithin }, now->irregular);
+    const ShownPlaces shown = shownPlaces(now->irregular, now->quads);
+    resolveEdit(
+      *edit, name, { where.places, now->fixed, where.sameWithin, &shown }, now->irregular);
     edit->upon = data_->linksInForce();
     edit->onFeatures = now->onFeatures;
     edit->withoutMap = now->fixed.insideOfFaces;
@@ -398,8 +400,9 @@ void Session::edit(int id, ConstraintContent content)
     const std::shared_ptr<const SessionResult> now = result();
     const PlacesOfSession where = data_->places(settings());
     const FixedPlaces none;
-    resolveEdit(*edit, before.name(), { where.places, now ? now->fixed : none, where.sameWithin },
-      made.before);
+    const ShownPlaces shown = now ? shownPlaces(made.before, now->quads) : ShownPlaces();
+    resolveEdit(*edit, before.name(),
+      { where.places, now ? now->fixed : none, where.sameWithin, &shown }, made.before);
     edit->upon = made.upon;
     edit->onFeatures = made.onFeatures;
     edit->withoutMap = made.withoutMap;

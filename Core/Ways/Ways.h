@@ -88,7 +88,7 @@ struct QuadsMade
   RemeshResult remeshed;
   std::optional<MadeSymmetry> symmetry;
   std::optional<MadeThinning> thinning;
-  std::vector<std::string> warnings; ///< of moves that could not be made
+  std::vector<std::string> warnings; ///< of what was drawn and is left out
 
   /// Where the points lie on the input. Not of previews.
   std::vector<SourceLocation> pointSources(int threads) const;

@@ -158,6 +158,49 @@ TEST(DrawnRun, WhereTheSurfaceItselfFailsNothingGoes)
   EXPECT_EQ(drawn.placed[3].whyNot, "");
 }
 
+/// Runs that have quads, but for so many of three components.
+RemeshRun runsWithout(std::function<std::size_t(const SurfaceInput&)> failed, int& count)
+{
+  return [failed, &count](const SurfaceInput& input, const RemeshOptions&)
+  {
+    ++count;
+    UncutResult made;
+    made.remeshed.failed.components = failed(input);
+    made.remeshed.failed.ofComponents = 3;
+    made.remeshed.failed.why = "there is no map";
+    return made;
+  };
+}
+
+TEST(DrawnRun, WhatLosesAComponentGoes)
+{
+  Drawn drawn;
+  int count = 0;
+  const RemeshRun run = runsWithout(
+    [](const SurfaceInput& input) { return input.drawn.valences.size() == 2 ? 2U : 1U; }, count);
+  std::vector<std::string> notices;
+  const UncutResult made = remeshWithDrawn(drawn.input, {}, run, {}, drawn.placed, notices);
+  EXPECT_EQ(made.remeshed.failed.components, 1U);
+  EXPECT_EQ(drawn.placed[2].whyNot, "");
+  EXPECT_NE(drawn.placed[3].whyNot.find("with it 2 of 3 connected components"), std::string::npos)
+    << drawn.placed[3].whyNot;
+}
+
+TEST(DrawnRun, ComponentsThatFailWithoutWhatIsDrawnAreNoReason)
+{
+  Drawn drawn;
+  int count = 0;
+  ResultStore store(1 << 20);
+  const RemeshRun run = runsWithout([](const SurfaceInput&) { return 1U; }, count);
+  std::vector<std::string> notices;
+  for (const int runs : { 2, 3 }) // how many components do is remembered
+  {
+    remeshWithDrawn(drawn.input, {}, run, { &store, nullptr }, drawn.placed, notices);
+    EXPECT_EQ(count, runs);
+    EXPECT_TRUE(notices.empty());
+  }
+}
+
 TEST(DrawnRun, AStopEndsAll)
 {
   Drawn drawn;

@@ -169,6 +169,37 @@ TEST_F(IrregularEdits, VerticesMergeAndSplit)
   expectIrregular(first);
 }
 
+/// A user gives places by the points of the quads, from which smoothing has moved the vertices of the map.
+TEST_F(IrregularEdits, AVertexThatIsMovedToWhereAnotherIsSeenJoinsIt)
+{
+  PlaceValences expected = valencesOf(*session_.result());
+  const ShownPlaces shown = shownPlaces(before_, session_.result()->quads);
+  EXPECT_EQ(shown.size(), before_.size());
+  const IrregularVertex a = loneliest(3);
+  const IrregularVertex b = *std::min_element(before_.begin(), before_.end(),
+    [&](const IrregularVertex& v, const IrregularVertex& w)
+    {
+      const auto rank = [&a](const IrregularVertex& other)
+      { return std::pair(other.valence != 3 || other == a, (other.place - a.place).norm()); };
+      return rank(v) < rank(w);
+    });
+  const ShownPlace& goal = shown.at(b.place);
+  const Vector3 aside = (shown.at(a.place).point - goal.point).normalized();
+  session_.add(IrregularEdit{ IrregularOperation::Move,
+    { shown.at(a.place).point, goal.point + 0.4 * goal.edgeLength * aside }, {}, {}, {}, {} });
+  const auto& edit = std::get<IrregularEdit>(session_.constraints().back()->content);
+  const auto made = std::find_if(edit.changes.begin(), edit.changes.end(),
+    [](const IrregularEdit::Change& change) { return change.after == 2; });
+  ASSERT_NE(made, edit.changes.end());
+  EXPECT_LT((made->place - goal.point).norm(), 0.01 * goal.edgeLength);
+  expected.erase(a.place);
+  expected.erase(b.place);
+  expected[made->place] = 2;
+  const SessionReport& report = session_.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_EQ(valencesOf(*session_.result()), expected);
+}
+
 TEST_F(IrregularEdits, AnOperationThatIsTakenBackLeavesTheLaterOnes)
 {
   PlaceValences expected = valencesOf(*session_.result());

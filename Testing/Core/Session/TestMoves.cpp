@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Moves of irregular vertices that are drawn, by the places where the quads show them.
+#include "SessionHelpers.h"
+
+#include "Evaluation/ConstraintMeasures.h"
+#include "Session/Moves.h"
+
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+using namespace quadrille::test;
+
+class Moves : public ::testing::Test
+{
+protected:
+  Moves() : options_(sessionOptions(400))
+  {
+    options_.keepsPositions = true;
+    quads_ = remesh(dents(), options_).quads;
+    for (Index p = 0; p < quads_.points.size(); ++p)
+    {
+      if (quads_.valence[p] == 3)
+      {
+        threes_.push_back(quads_.points[p]);
+      }
+    }
+  }
+
+  UncutResult run(SurfaceInput input, const RemeshOptions& options) const
+  {
+    const bool isMoved = input.regularElsewhere;
+    UncutResult made;
+    if (input.regularOnFeatures && !holdsFeatures_)
+    {
+      made.remeshed.status = { StatusCode::Infeasible, "they are not" };
+      return made;
+    }
+    made.remeshed = remesh(std::move(input), options);
+    if (isMoved && losesAComponent_)
+    {
+      made.remeshed.failed.components = 2;
+      made.remeshed.failed.ofComponents = 5;
+      made.remeshed.failed.why = "there is no map";
+    }
+    else if (losesAComponent_)
+    {
+      made.remeshed.failed.components = 1;
+    }
+    return made;
+  }
+
+  /// One 3 is dragged onto another.
+  UncutResult move()
+  {
+    PlacedConstraint placed;
+    placed.kind = ConstraintKind::Move;
+    placed.given = placed.path = { threes_.front(), threes_.back() };
+    placed_ = { placed };
+    return remeshWithMoves(
+      dents(), options_,
+      [this](SurfaceInput input, const RemeshOptions& options)
+      { return run(std::move(input), options); },
+      {}, placed_, notices_);
+  }
+
+  RemeshOptions options_;
+  QuadMesh quads_; ///< before
+  std::vector<Vector3> threes_;
+  bool losesAComponent_ = false, holdsFeatures_ = true;
+  std::vector<PlacedConstraint> placed_;
+  std::vector<std::string> notices_;
+};
+
+TEST_F(Moves, OfTwoBallsOneIsLeft)
+{
+  ASSERT_GT(threes_.size(), 1U);
+  const UncutResult made = move();
+  const QuadMesh& quads = made.remeshed.quads;
+  ASSERT_EQ(placed_[0].whyNot, "");
+  EXPECT_EQ(placed_[0].valence, 2);
+  ASSERT_TRUE(placed_[0].irregular);
+  const ConstraintMeasure word = ConstraintMeasures(quads).move(placed_[0]);
+  EXPECT_TRUE(word.isMet) << word.reason;
+  const double edgeLength = made.remeshed.targetEdgeLength;
+  std::size_t irregular = 0;
+  for (Index p = 0; p < quads.points.size(); ++p)
+  {
+    irregular += quads.valence[p] != 4 && (quads.points[p] - threes_.back()).norm() < edgeLength;
+    EXPECT_TRUE(quads.valence[p] == 4 || (quads.points[p] - threes_.front()).norm() > edgeLength);
+  }
+  EXPECT_EQ(irregular, 1U);
+}
+
+TEST_F(Moves, OneThatLosesAComponentIsLeftOut)
+{
+  losesAComponent_ = true;
+  const UncutResult made = move();
+  EXPECT_TRUE(areSame(made.remeshed.quads, quads_));
+  EXPECT_EQ(made.remeshed.failed.components, 1U); // as without the move
+  EXPECT_NE(placed_[0].whyNot.find("with it 2 of 5 connected components"), std::string::npos)
+    << placed_[0].whyNot;
+  ASSERT_EQ(notices_.size(), 1U);
+  EXPECT_EQ(notices_[0], "an irregular vertex is not moved: " + placed_[0].whyNot);
+}
+
+/// Nothing that was asked for is left undone.
+TEST_F(Moves, ThatFeaturesAreNotHeldIsANoticeOfTheRun)
+{
+  holdsFeatures_ = false;
+  const UncutResult made = move();
+  EXPECT_EQ(placed_[0].whyNot, "");
+  EXPECT_TRUE(notices_.empty());
+  const std::vector<std::string>& notices = made.remeshed.notices;
+  EXPECT_EQ(std::count(notices.begin(), notices.end(),
+              "moves may change irregular vertices on features, as these cannot be held: they are "
+              "not"),
+    1);
+}
+
+} // namespace
+} // namespace quadrille
