@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -360,15 +361,69 @@ int ConstraintMeasures::valenceShown(const Vector3& place, int asked)
   return valence(place, asked).isMet ? asked : valences().valence(*valences().nearest(place));
 }
 
-ConstraintMeasure ConstraintMeasures::move(const Vector3& from, const Vector3& to, int valence)
+/// An irregular point within an edge length of the place that is none of these; each stands for one point of its
+/// valence within two edge lengths.
+std::optional<Index> ConstraintMeasures::strangerAt(
+  const Vector3& place, const std::vector<ValencePlace>& irregular)
 {
-  ConstraintMeasure there = this->valence(to, valence);
+  constexpr double kBesideGoal = 1, kReachOfPartner = 2; // edge lengths
+  const double length = edgeLengthAt(place);
+  std::vector<std::pair<double, Index>> beside;
+  for (Index p = 0; p < mesh_.points.size(); ++p)
+  {
+    const double distance = (mesh_.points[p] - place).norm();
+    if (distance <= kBesideGoal * length && valences().valence(p) != kRegularValence)
+    {
+      beside.emplace_back(distance, p);
+    }
+  }
+  std::sort(beside.begin(), beside.end());
+  std::vector<std::uint8_t> isTaken(irregular.size(), 0);
+  for (const auto& [distance, p] : beside)
+  {
+    std::optional<std::size_t> partner;
+    double least = kReachOfPartner * length;
+    for (std::size_t i = 0; i < irregular.size(); ++i)
+    {
+      const double away = (irregular[i].place - mesh_.points[p]).norm();
+      if (isTaken[i] == 0 && irregular[i].valence == valences().valence(p) && away <= least)
+      {
+        least = away;
+        partner = i;
+      }
+    }
+    if (!partner)
+    {
+      return p;
+    }
+    isTaken[*partner] = 1;
+  }
+  return std::nullopt;
+}
+
+ConstraintMeasure ConstraintMeasures::move(const PlacedConstraint& constraint)
+{
+  const Vector3& from = constraint.path.front();
+  const Vector3& to = constraint.path.back();
+  ConstraintMeasure there = this->valence(to, constraint.valence);
   const ConstraintMeasure before = this->valence(from, kRegularValence);
   if (there.isMet && !before.isMet)
   {
     there.isMet = false;
     there.place = from;
     there.reason = "it is at its new place, but where it was another irregular vertex is left";
+  }
+  const std::optional<Index> stranger =
+    there.isMet && constraint.irregular ? strangerAt(to, *constraint.irregular) : std::nullopt;
+  if (stranger)
+  {
+    there.isMet = false;
+    there.place = mesh_.points[*stranger];
+    there.reason = "an irregular vertex of valence " +
+      std::to_string(valences().valence(*stranger)) + " is " +
+      shortText((there.place - to).norm() / edgeLengthAt(to)) +
+      " edge lengths from its new place, where there was to be none: choose a place with more room "
+      "between features and other irregular vertices";
   }
   return there;
 }
@@ -396,6 +451,14 @@ ConstraintMeasure ConstraintMeasures::line(
                              : "the chain of edges ends at " + placeText(found->end) + ", " +
         shortText(found->ends) + " edge lengths from the end of the line, at most " +
         shortText(kMetEnds) + " count as met: end the line there";
+    const bool isFar = constraint.kind == ConstraintKind::Cycle && found->distance > kMetCycle;
+    if (found->isMet() && found->distance > kToldLine)
+    {
+      word.isMet = !isFar;
+      word.reason = "the chain of edges is up to " + shortText(found->distance) +
+        " edge lengths away from the line" +
+        (isFar ? ", at most " + shortText(kMetCycle) + " count as met" : "");
+    }
   }
   else if (constraint.curve >= outcomes.size())
   {

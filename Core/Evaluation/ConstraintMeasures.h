@@ -23,6 +23,10 @@ namespace quadrille
 constexpr double kMetAngle = 5;
 /// Places (valences, moves) and feature lines: edge lengths of the quads there, at most.
 constexpr double kMetDistance = 0.3;
+/// Cycles: mean edge lengths from the chain to the line or back, at most.
+constexpr double kMetCycle = 3;
+/// Connections and cycles: the same, from which on it is told of those that are met.
+constexpr double kToldLine = 0.5;
 /// Sizes: the factor of the median; of the array of sizes, on average.
 constexpr double kMetFactor = 1.25;
 /// Edge lengths of the quads beyond which a drawn point lies off the surface, which is told.
@@ -39,8 +43,7 @@ struct ConstraintMeasure
   double deviation = 0;
   double deviation95 = 0; ///< the 95th percentile of what deviation is the mean of
   const char* unit = "";
-  std::string
-    reason; ///< why it is not met; where it is, empty or that a point lies off the surface
+  std::string reason; ///< why it is not met; where it is, empty or what is to be known of it
 
   static ConstraintMeasure unknown(const Vector3& place, const char* unit, std::string reason);
 };
@@ -105,10 +108,11 @@ public:
   /// "edge lengths": from the place to the nearest point of the quads with the valence, on boundaries one more than the
   /// edges there; of a regular one 0, if the nearest point is one.
   ConstraintMeasure valence(const Vector3& place, int asked);
-  /// The same of a vertex that was moved: at its new place, and that its old one is regular. valence: of the vertex.
-  ConstraintMeasure move(const Vector3& from, const Vector3& to, int valence);
+  /// The same of a vertex that was moved: at its new place, its old one is regular, and no irregular point lies within
+  /// an edge length of the new one that is not among the constraint's.
+  ConstraintMeasure move(const PlacedConstraint& constraint);
   /// "edge lengths": of a connection or cycle, met where there is a straight chain of edges that ends where the line
-  /// does: the largest distance from the chain to the line or back. outcomes: see AskedConstraints, for the reason.
+  /// does, or closes within kMetCycle of it: the largest distance from the chain to the line or back. outcomes: see AskedConstraints, for the reason.
   ConstraintMeasure line(
     const PlacedConstraint& constraint, const std::vector<CurveOutcome>& outcomes);
   /// The chain that is judged for a connection or cycle; none: there is none.
@@ -140,6 +144,7 @@ private:
   const NearestQuads& quads();
   const ReachedValences& valences();
   std::optional<Index> pointFor(const Vector3& place, int asked);
+  std::optional<Index> strangerAt(const Vector3& place, const std::vector<ValencePlace>& irregular);
   ConstraintMeasure sizeOf(const std::vector<std::pair<Index, double>>& quads, const Vector3& place,
     const AskedSize& asked) const;
 

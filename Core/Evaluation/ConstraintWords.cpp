@@ -226,8 +226,7 @@ ConstraintWord Judge::measured(std::size_t i)
     case ConstraintKind::Cleared:
       return worded(kind, constraint.source, measures_.cleared(place));
     case ConstraintKind::Move:
-      return worded(kind, constraint.source,
-        measures_.move(constraint.path.front(), constraint.path.back(), constraint.valence));
+      return worded(kind, constraint.source, measures_.move(constraint));
     case ConstraintKind::Feature:
       return worded(kind, constraint.source, measures_.curve(constraint.path));
     default: // connections and cycles

@@ -218,6 +218,33 @@ TEST(ConstraintWords, AMoveIsMetWhereItsOldPlaceIsRegularToo)
   EXPECT_FALSE(words[1].isMet);
 }
 
+// A 6 that two vertices have become, with a vertex beside it.
+TEST(ConstraintWords, AMoveIsNotMetBesideAnIrregularVertexThatWasNotToBeThere)
+{
+  QuadMesh mesh = plane();
+  mesh.valence[pointAt(3, 3)] = 6;
+  mesh.valence[pointAt(4, 3)] = 5;
+  PlacedConstraint move = placedValence({ 0, 0, 0 }, 6);
+  move.kind = ConstraintKind::Move;
+  move.path = { Vector3(2, 8, 0), Vector3(3, 3, 0) };
+  AskedConstraints asked;
+  using Expected = std::vector<ValencePlace>;
+  for (const Expected& irregular :
+    { Expected{ { { 3, 3, 0 }, 6 } }, Expected{ { { 3, 3, 0 }, 6 }, { { 5.9, 3, 0 }, 5 } },
+      Expected{ { { 3, 3, 0 }, 6 }, { { 4, 3, 0 }, 3 } } })
+  {
+    move.irregular = std::make_shared<const Expected>(irregular);
+    asked.placed.push_back(move);
+  }
+  const std::vector<ConstraintWord> words = judgeConstraints(asked, mesh, {});
+  EXPECT_FALSE(words[0].isMet);
+  EXPECT_EQ(words[0].place, Vector3(4, 3, 0));
+  EXPECT_NE(words[0].reason.find("valence 5 is 1 edge lengths"), std::string::npos)
+    << words[0].reason;
+  EXPECT_TRUE(words[1].isMet) << words[1].reason; // smoothing has moved it less than two edges
+  EXPECT_FALSE(words[2].isMet) << "it has another valence";
+}
+
 PlacedConstraint placedLine(ConstraintKind kind, const std::vector<Vector3>& line)
 {
   PlacedConstraint placed;
@@ -285,7 +312,7 @@ TEST(ConstraintWords, ACycleIsMetWhereAChainClosesWhereverTheLineGoes)
   constexpr Index kRound = 16, kAlong = 24;
   const QuadMesh mesh = tube(kRound, kAlong);
   AskedConstraints asked;
-  std::vector<Vector3> ring, detour;
+  std::vector<Vector3> ring, detour, told, far;
   for (Index i = 0; i <= kRound; ++i)
   {
     Vector3 p = mesh.points[10 * kRound + i % kRound];
@@ -293,11 +320,25 @@ TEST(ConstraintWords, ACycleIsMetWhereAChainClosesWhereverTheLineGoes)
     // Up to 13 edges away, so that each ring leaves some of it.
     p.z() += i == kRound / 2 ? 13 : 0;
     detour.push_back(p);
+    // The ring half way up is two edges away from all of it, or four.
+    p.z() -= i == kRound / 2 ? 9 : 0;
+    told.push_back(p);
+    p.z() += i == kRound / 2 ? 4 : 0;
+    far.push_back(p);
   }
-  asked.placed = { placedLine(ConstraintKind::Cycle, ring),
-    placedLine(ConstraintKind::Cycle, detour) };
+  for (const std::vector<Vector3>& line : { ring, detour, told, far })
+  {
+    asked.placed.push_back(placedLine(ConstraintKind::Cycle, line));
+  }
   const std::vector<ConstraintWord> words = judgeConstraints(asked, mesh, {});
-  ASSERT_EQ(words.size(), 2U);
+  ASSERT_EQ(words.size(), 4U);
+  EXPECT_EQ(words[0].reason, "");
+  EXPECT_TRUE(words[2].isMet);
+  EXPECT_NE(words[2].reason.find("up to 2 edge lengths away"), std::string::npos)
+    << words[2].reason;
+  EXPECT_FALSE(words[3].isMet);
+  EXPECT_NE(words[3].reason.find("up to 4 edge lengths away"), std::string::npos)
+    << words[3].reason;
   EXPECT_TRUE(words[0].isMet) << words[0].reason;
   EXPECT_NEAR(words[0].deviation, 0.3, 1e-9);
   EXPECT_FALSE(words[1].isMet);
