@@ -196,7 +196,7 @@ void vtkQuadRemesh::TellRun(quadrille::Block& block, const quadrille::RemeshResu
     report.numbers["ComponentsWithoutQuads"] = static_cast<double>(failed.components);
     report.certificate =
       failed.countText() + ", without a map; of the others: " + report.certificate;
-    vtkWarningMacro(<< failed.text());
+    this->WarnInForeground(failed.text());
   }
   if (!result.status.ok())
   {
@@ -212,6 +212,15 @@ void vtkQuadRemesh::TellRun(quadrille::Block& block, const quadrille::RemeshResu
     block.output(GetProblemPort())->ShallowCopy(quadrille::writeProblems(problems));
   }
   quadrille::requireOk(result.status, "remeshing");
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::WarnInForeground(const std::string& text)
+{
+  if (!this->WasInBackground)
+  {
+    vtkWarningMacro(<< text);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -341,7 +350,8 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   const quadrille::QuadsMade& made = *run->made;
   for (const std::string& warning : made.warnings)
   {
-    this->AddWarning(warning);
+    this->AddNotice(warning);
+    this->WarnInForeground(warning);
   }
   const quadrille::RemeshResult& result = made.remeshed;
   asked.curves = result.curves;

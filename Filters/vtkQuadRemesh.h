@@ -612,6 +612,8 @@ private:
   /// Symmetry, and where cell data come from.
   void SetWishes(quadrille::QuadProblem& problem) const;
   void TellRun(quadrille::Block& block, const quadrille::RemeshResult& result);
+  /// In the window a warning opens Output Messages over the view: not after a run that an edit has begun there.
+  void WarnInForeground(const std::string& text);
   void WriteQuads(quadrille::Block& block, const quadrille::RunOfBlock& run);
   /// The options get the number of quads of all blocks; shares: of each, sum 1; sizes: of its quads for that share,
   /// over the mean.

@@ -159,10 +159,7 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBl
   for (const std::string& warning : quadrille::unmetNotices(words, run.asked))
   {
     notices.push_back(warning);
-    if (!this->WasInBackground)
-    {
-      vtkWarningMacro(<< warning);
-    }
+    this->WarnInForeground(warning);
   }
   quadrille::addText(quads, "Notices", notices);
   block.output(5)->ShallowCopy(quadrille::writeConstraints(
