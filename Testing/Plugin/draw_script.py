@@ -145,6 +145,21 @@ def feature_places(seed, near):
     return found
 
 
+def irregular_within(place, radius):
+    """(distance, valence) of the irregular vertices inside of the quads within a radius, the nearest first."""
+    points, count = valences()
+    away = numpy.linalg.norm(points - place, axis=1)
+    found = numpy.flatnonzero((away <= radius) & (count != 4) & (count != 0))
+    return sorted((float(away[i]), int(count[i])) for i in found)
+
+
+def free_balls():
+    """Irregular vertices of the quads that are on no feature and no boundary."""
+    data, lines = output(4), output(2)
+    on_lines = {lines.GetPoint(i) for i in range(lines.GetNumberOfPoints())}
+    return {data.GetPoint(i) for i in range(data.GetNumberOfPoints())} - on_lines
+
+
 def size_within(place, radius):
     """The median by area of the edge lengths of quads with their centre within the radius; how many there are."""
     points, corners = quad_arrays()
@@ -196,6 +211,23 @@ def outline_right_of(pixel):
 
 def cut_closes(path):
     """Whether the plane through a drag and the eye cuts the quads there in a closed curve."""
+    curve, _, _ = cut_of(path)
+    return math.dist(curve[0], curve[-1]) == 0
+
+
+def cut_crosses(path):
+    """The distance of that curve from the nearest place where a feature of the quads passes the plane."""
+    curve, origin, normal = cut_of(path)
+    ends = features()
+    heights = (ends - origin) @ normal
+    passing = heights[:, 0] * heights[:, 1] < 0
+    share = heights[passing, 0] / (heights[passing, 0] - heights[passing, 1])
+    places = ends[passing, 0] + share[:, None] * (ends[passing, 1] - ends[passing, 0])
+    return float(from_polyline(places, curve).min()) if len(places) else math.inf
+
+
+def cut_of(path):
+    """The curve of the cut that is nearest to the middle of the drag, and the plane: its origin and normal."""
     path = numpy.array(path)
     middle = path[len(path) // 2]
     normal = numpy.cross(path[-1] - path[0], middle - numpy.array(view.GetActiveCamera().GetPosition()))
@@ -213,7 +245,8 @@ def cut_closes(path):
     nearest = lines.GetCell(int(numpy.argmin([
         min(math.dist(lines.GetPoint(lines.GetCell(i).GetPointId(k)), middle)
             for k in range(lines.GetCell(i).GetNumberOfPoints())) for i in range(lines.GetNumberOfCells())])))
-    return nearest.GetPointId(0) == nearest.GetPointId(nearest.GetNumberOfPoints() - 1)
+    curve = [lines.GetPoint(nearest.GetPointId(i)) for i in range(nearest.GetNumberOfPoints())]
+    return curve, middle, normal / numpy.linalg.norm(normal)
 
 
 def last_row(kind):

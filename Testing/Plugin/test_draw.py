@@ -26,12 +26,16 @@ import time
 import count_actions
 import test_places
 
+REGULAR = 4
 ALLOWED = test_places.ALLOWED  # edge lengths
 NEAR = test_places.NEAR
 LINE_NEAR = 0.7   # edge lengths between what pixels beside each other see along a line
 BAR = 0.98       # of the places
 MET_ANGLE = 5    # degrees in the mean, as the Constraint Table has it for strokes
 MET_OFF = 0.3    # edge lengths, as the table has it for feature curves
+SEEN = 0.8       # of a line, the share that is not hidden
+CROSSED = 0.05   # edge lengths between a cut and a feature that a loop crosses
+NOT_CROSSED = 0.15
 DOUBT = 2.5      # degrees in which two ways to measure the mean may differ
 WIDTH = count_actions.WIDTH
 FILE_MENU = 20, 10      # pixels of the screen
@@ -40,6 +44,7 @@ SELECTED = bytes((48, 140, 198))  # of the pipeline
 BUSY = 80000  # quads: an edit of them takes seconds, in which something else can be done
 COVERED = 200  # pixels at the lower end of the view, where the window Output Messages may lie
 TOOLS = ("Stroke", "Valence", "Move", "Connect", "Loop", "Feature", "Size")  # in their order
+MESSAGES = "^Output Messages"
 
 
 class Session(test_places.Session):
@@ -108,6 +113,19 @@ class Session(test_places.Session):
                 return found
         raise SystemExit("FAILED: hardly any place of the quads is seen in the upper part of the view")
 
+    def share_seen(self, pixels):
+        """Of pixels of the view those with the green or magenta of a stroke within four pixels."""
+        self.ask("simple.Render(view)")
+        time.sleep(0.3)
+        rows = self.rows()
+
+        def is_drawn(x, y):
+            near = [rows[v][3 * u:3 * u + 3] for v in range(y - 4, y + 5) for u in range(x - 4, x + 5)]
+            return any(r > 45 and b > 45 and g < min(r, b) / 2 or g > 55 and r < g / 2 and b < 0.8 * g
+                       for r, g, b in near)
+
+        return sum(is_drawn(*(round(c) for c in self.screen(p))) for p in pixels) / len(pixels)
+
     def balls(self):
         return [b for b in super().balls() if b[0][1] > COVERED]
 
@@ -148,11 +166,12 @@ def stroke(session, chance):
     session.drag(pixels)
     if not session.drawn():
         return NOTHING
+    seen = session.share_seen(pixels)
     off = session.value(f"line_off({places!r})") / session.edge
     angle = session.value(f"angle_along({places!r})")
     met, reason = session.word("guide stroke") or (None, "no row")
     is_true = met is not None and (angle <= MET_ANGLE + DOUBT if met else angle >= MET_ANGLE - DOUBT)
-    return Outcome(off, met, is_true, f"{angle:.1f} degrees; {reason}")
+    return Outcome(off, met, is_true and seen > SEEN, f"{angle:.1f} degrees; seen {seen:.2f}; {reason}")
 
 
 def feature(session, chance):
@@ -243,17 +262,55 @@ def move(session, chance):
     places = [p for p in session.places(chance, 6)
               if session.edge < math.dist(p[1], ball[1]) < 5 * session.edge] or session.places(chance, 1)
     pixel, place = chance.choice(places)
+    others = [b for b in session.value("balls_before")
+              if math.dist(b, place) <= ALLOWED * session.edge and b != tuple(ball[1])]
+    goal = min(others, key=lambda b: math.dist(b, place)) if others else place
+    wanted = before + session.value(f"valence_at({tuple(goal)!r})") - REGULAR if others else before
+    beside = others_near(session, goal, ball[1])
     session.drag([ball[0], tuple((a + b) / 2 for a, b in zip(ball[0], pixel)), pixel])
     drawn = session.drawn()
     if not drawn:
         return NOTHING
-    others = [b for b in session.value("balls_before") if math.dist(b, place) <= ALLOWED * session.edge]
-    goal = min(others, key=lambda b: math.dist(b, place)) if others else place
+    return moved(session, drawn, ball, goal, wanted, beside)
+
+
+def moved(session, drawn, ball, goal, wanted, beside):
+    """Of a ball that was dropped: what is there now. beside: the other irregular vertices there before."""
     off = max(math.dist(drawn[1][0], ball[1]), math.dist(drawn[1][1], goal)) / session.edge
     met, reason = session.word("move") or (None, "no row")
-    nearest = session.value(f"nearest_of_valence({tuple(drawn[1][1])!r}, {before})") / session.edge
-    is_true = met is not None and (nearest <= ALLOWED or bool(others) if met else reason != "" or nearest > 0.2)
-    return Outcome(off, met, is_true, f"{before} is {nearest:.2f} off; {reason}")
+    there = session.value(f"irregular_within({tuple(goal)!r}, {session.edge})")
+    is_there = wanted == REGULAR and len(there) <= len(beside) or \
+        any(v == wanted and d <= ALLOWED * session.edge for d, v in there) and len(there) <= len(beside) + 1
+    is_true = met is not None and (is_there if met else reason != "")
+    found = [(round(d / session.edge, 2), v) for d, v in there]
+    return Outcome(off, met, is_true, f"a {wanted} was to be there and is {is_there}: {found}; {reason}")
+
+
+def merge(session, chance):
+    """A ball is dropped on one of another place: the two become one, or none."""
+    for _ in range(40):
+        balls = [b for b in visible_balls(session, chance, 2) if b[1] in session.value("free_balls()")]
+        pairs = sorted((math.dist(a[1], b[1]), i, j) for i, a in enumerate(balls) for j, b in enumerate(balls)
+                       if math.dist(a[1], b[1]) > 1.5 * session.edge)
+        if pairs:
+            break
+        test_places.random_view(session, chance)
+    else:
+        raise SystemExit("FAILED: hardly any two balls beside features are seen")
+    _, i, j = pairs[chance.randrange(min(4, len(pairs)))]
+    ball, goal = balls[i], balls[j]
+    wanted = sum(session.value(f"valence_at({tuple(b[1])!r})") for b in (ball, goal)) - REGULAR
+    beside = others_near(session, goal[1], ball[1])
+    session.drag([ball[0], *(tuple(round(a + (b - a) * k / 6) for a, b in zip(ball[0], goal[0])) for k in range(1, 7))])
+    drawn = session.drawn()
+    return moved(session, drawn, ball, goal[1], wanted, beside) if drawn else NOTHING
+
+
+def others_near(session, goal, ball):
+    """Irregular vertices that may be within an edge length of a goal afterwards: neither there nor the ball."""
+    near = session.value(f"irregular_within({tuple(goal)!r}, {1.5 * session.edge})")
+    own = math.dist(ball, goal)
+    return [(d, v) for d, v in near if d > 1e-6 * session.edge and abs(d - own) > 1e-6 * session.edge]
 
 
 def connect(session, chance):
@@ -273,19 +330,22 @@ def connect(session, chance):
 def loop(session, chance):
     pixels, places = session.path(chance, bend=0)
     closes = session.value(f"cut_closes({places!r})")
+    crossed = session.value(f"cut_crosses({places!r})") / session.edge
     session.drag(pixels)
     drawn = session.drawn()
-    if not drawn or not closes:
-        return NOTHING if bool(drawn) != closes else Outcome(0, None, True, "no loop closes there, and none was drawn")
+    if not drawn or not closes or crossed < CROSSED:
+        is_wrong = bool(drawn) if not closes or crossed < CROSSED else crossed > NOT_CROSSED
+        text = f"nothing was drawn; the cut closes {closes}, features are {crossed:.2f} off"
+        return NOTHING if is_wrong else Outcome(0, None, True, text)
     off = session.value(f"float(from_polyline({places!r}, constraints()[-1][1], True).max())") / session.edge
     met, reason = session.word("cycle") or (None, "no row")
     return Outcome(off, met, met is not None and (met == 1 or reason != ""), reason)
 
 
-ACTIONS = {"Stroke": stroke, "Valence": valence, "Move": move, "Connect": connect, "Loop": loop, "Feature": feature,
-           "Clear": clear, "Size": size}
+ACTIONS = {"Stroke": stroke, "Valence": valence, "Move": move, "Merge": merge, "Connect": connect, "Loop": loop,
+           "Feature": feature, "Clear": clear, "Size": size}
 #: Of what has no tool of its own.
-BUTTONS = {"Clear": "Feature"}
+BUTTONS = {"Clear": "Feature", "Merge": "Move"}
 
 
 def try_tool(session, name, chance, count):
@@ -559,6 +619,15 @@ def check_ball(session, chance):
     return not fine
 
 
+def check_merge(session, chance, count):
+    """Balls that are dropped on others; Output Messages does not open over the view."""
+    bad = try_tool(session, "Merge", chance, 3 * count)
+    found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", MESSAGES], capture_output=True,
+                           env=dict(os.environ, DISPLAY=session.display), check=False).stdout.split()
+    print(f"Output Messages after moves: {len(found)} windows: {'BAD' if found else 'fine'}", flush=True)
+    return bad + bool(found)
+
+
 def check_number(session):
     """A number that is typed counts; the shape says how many where the field is empty."""
     before = session.value("quads().NumberOfQuads")
@@ -704,7 +773,7 @@ def ring_pixels(session, pixel):
 #: Each with a session, random choices and a number of places. The last ones have many quads.
 CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _: check_camera(s, c),
           "undo": lambda s, c, _: check_undo(s, c), "remove": lambda s, c, _: check_remove(s, c),
-          "ball": lambda s, c, _: check_ball(s, c), "handles": check_handles,
+          "ball": lambda s, c, _: check_ball(s, c), "merge": check_merge, "handles": check_handles,
           "picks": lambda s, c, n: test_places.check_picks(s, c, 3 * n),
           "strokes": lambda s, c, n: test_places.check_strokes(s, c, 2 * n),
           "selection": lambda s, c, _: test_places.check_selection(s, c),
