@@ -407,7 +407,10 @@ ConstraintMeasure ConstraintMeasures::move(const PlacedConstraint& constraint)
   const Vector3& to = constraint.path.back();
   ConstraintMeasure there = this->valence(to, constraint.valence);
   const ConstraintMeasure before = this->valence(from, kRegularValence);
-  if (there.isMet && !before.isMet)
+  // Smoothing may have brought another one to where it was.
+  const bool isLeft =
+    !before.isMet && (!constraint.irregular || strangerAt(from, *constraint.irregular));
+  if (there.isMet && isLeft)
   {
     there.isMet = false;
     there.place = from;

@@ -112,7 +112,8 @@ public:
   /// an edge length of the new one that is not among the constraint's.
   ConstraintMeasure move(const PlacedConstraint& constraint);
   /// "edge lengths": of a connection or cycle, met where there is a straight chain of edges that ends where the line
-  /// does, or closes within kMetCycle of it: the largest distance from the chain to the line or back. outcomes: see AskedConstraints, for the reason.
+  /// does, or closes within kMetCycle of it: the largest distance from the chain to the line or back. outcomes: see
+  /// AskedConstraints, for the reason.
   ConstraintMeasure line(
     const PlacedConstraint& constraint, const std::vector<CurveOutcome>& outcomes);
   /// The chain that is judged for a connection or cycle; none: there is none.

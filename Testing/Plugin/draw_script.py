@@ -216,14 +216,14 @@ def cut_closes(path):
 
 
 def cut_crosses(path):
-    """The distance of that curve from the nearest place where a feature of the quads passes the plane."""
+    """The distance of that curve from the nearest place where a feature of the quads passes the plane; large: none."""
     curve, origin, normal = cut_of(path)
     ends = features()
     heights = (ends - origin) @ normal
     passing = heights[:, 0] * heights[:, 1] < 0
     share = heights[passing, 0] / (heights[passing, 0] - heights[passing, 1])
     places = ends[passing, 0] + share[:, None] * (ends[passing, 1] - ends[passing, 0])
-    return float(from_polyline(places, curve).min()) if len(places) else math.inf
+    return float(from_polyline(places, curve).min()) if len(places) else 1e9
 
 
 def cut_of(path):

@@ -243,6 +243,16 @@ TEST(ConstraintWords, AMoveIsNotMetBesideAnIrregularVertexThatWasNotToBeThere)
     << words[0].reason;
   EXPECT_TRUE(words[1].isMet) << words[1].reason; // smoothing has moved it less than two edges
   EXPECT_FALSE(words[2].isMet) << "it has another valence";
+  // Where it was is one that was to be near, and one that was not.
+  for (const Expected& irregular :
+    { Expected{ { { 3, 3, 0 }, 6 }, { { 4, 3, 0 }, 5 } }, Expected{ { { 4, 3, 0 }, 5 } } })
+  {
+    move.valence = 5;
+    move.path = { Vector3(3, 3, 0), Vector3(4, 3, 0) };
+    move.irregular = std::make_shared<const Expected>(irregular);
+    asked.placed = { move };
+    EXPECT_EQ(judgeConstraints(asked, mesh, {})[0].isMet, irregular.size() == 2);
+  }
 }
 
 PlacedConstraint placedLine(ConstraintKind kind, const std::vector<Vector3>& line)
