@@ -169,6 +169,7 @@ private:
   }
 
   ConstraintMeasure line(ConstraintKind kind);
+  bool isBesideGoal(const Vector3& place);
 
   const SurfaceInput& surface_;
   const SurfacePlaces& places_;
@@ -206,6 +207,15 @@ bool isJoined(const IrregularEdit& edit, const Vector3& place, int asked)
     placeInQuads(edit, place, asked) == edit.points.back();
 }
 
+/// Whether an irregular vertex comes so near to the place that its point is the nearest one there.
+bool SessionJudge::isBesideGoal(const Vector3& place)
+{
+  const double near = kMetDistance * measures_.edgeLengthAt(place);
+  return std::any_of(part_->valences.begin(), part_->valences.end(),
+    [&](const auto& goal)
+    { return goal.second != kRegularValence && (goal.first - place).norm() <= near; });
+}
+
 /// The vertices that it changed last have their valences in the quads; and of the last operation: all others are
 /// where they were. The deviation is that of the vertices.
 ConstraintMeasure SessionJudge::irregularEdit(const IrregularEdit& edit)
@@ -217,7 +227,7 @@ ConstraintMeasure SessionJudge::irregularEdit(const IrregularEdit& edit)
   measure.isMet = true;
   for (const auto& [place, asked] : part_->valences)
   {
-    if (isJoined(edit, place, asked))
+    if (isJoined(edit, place, asked) || (asked == kRegularValence && isBesideGoal(place)))
     {
       continue;
     }
