@@ -229,7 +229,7 @@ class SessionTest(unittest.TestCase):
         self.assertEqual(kinds, ["guide", "guide region", "feature", "valence", "size", "size region", "connection",
                                  "connection", "cycle"])
         for word in report["constraints"]:
-            is_far = word["kind"] in ("connection", "cycle") and word["deviation"] > 0.5
+            is_far = word["met"] and word["kind"] in ("connection", "cycle") and word["deviation"] > 0.5
             self.assertEqual(word["met"] and not is_far, word["reason"] == "", word)
         listed = made.constraints()
         self.assertEqual(listed[3]["valence"], 5)
