@@ -102,8 +102,8 @@ private:
   /// Where it is shown; one without edges there is shown at its own place.
   ShownPlace shownPlaceOf(const IrregularVertex& vertex) const
   {
-    static const ShownPlaces none;
-    const ShownPlaces& shown = where_.shown == nullptr ? none : *where_.shown;
+    static const ShownPlaces kNoneShown;
+    const ShownPlaces& shown = where_.shown == nullptr ? kNoneShown : *where_.shown;
     const auto found = shown.find(vertex.place);
     return found == shown.end() ? ShownPlace{ vertex.place, 0 } : found->second;
   }
