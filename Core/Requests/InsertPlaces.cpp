@@ -481,6 +481,7 @@ template <typename Asked>
 std::vector<Vector3> placesAsked(const std::vector<Asked>& requests)
 {
   std::vector<Vector3> places;
+  places.reserve(requests.size());
   for (const Asked& request : requests)
   {
     places.push_back(request.place);
