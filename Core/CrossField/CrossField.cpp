@@ -284,7 +284,7 @@ std::vector<int> turnPatches(const Change& change, Solution& solution)
   PatchSides sides = sidesOf(solution, matching);
   PatchStrips strips(sides);
   const std::size_t without = strips.find();
-  if (strips.lessen() > 0)
+  if (strips.lessen(without) > 0)
   {
     sides.leaveOut(strips.patchesWithout());
   }

@@ -50,8 +50,8 @@ struct PatchSide
 /// A quarter turn goes from one corner of a loop to another: all sides between them turn by a quarter.
 struct TurnMove
 {
-  double cost =
-    0; ///< what turns become more unnatural by: squared differences to their angles, in quarter turns
+  /// What turns become more unnatural by: squared differences to their angles, in quarter turns.
+  double cost = 0;
   Index loop = 0;
   Index from = 0, to = 0; ///< of its corners
   int by = 1;             ///< -1: the other way, and the sides between them turn the other way

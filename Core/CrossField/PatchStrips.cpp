@@ -28,9 +28,8 @@ std::size_t PatchStrips::find()
     sides.begin(), sides.end(), [this](const PatchSide& side) { return !hasStrip(side.first); }));
 }
 
-std::size_t PatchStrips::lessen()
+std::size_t PatchStrips::lessen(std::size_t without)
 {
-  std::size_t without = find();
   for (std::size_t before = without + 1; without > 0 && without < before;)
   {
     before = without;

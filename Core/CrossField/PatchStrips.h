@@ -31,9 +31,9 @@ public:
 
   /// The number of sides without a strip, with turns as they are.
   std::size_t find();
-  /// Moves turns until there is none or no single move lessens their number, those first that make the turns of corners
-  /// least unnatural. Returns the number.
-  std::size_t lessen();
+  /// After find(), which gave `without`: moves turns until there is none or no single move lessens their number, those
+  /// first that make the turns of corners least unnatural. Returns the number.
+  std::size_t lessen(std::size_t without);
   /// The patches of sides without a strip, as find() left it.
   std::vector<Index> patchesWithout() const;
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace quadrille
 {
@@ -99,7 +98,6 @@ void SideLengths::evenOut()
       sides_.markChanged(p);
     }
   }
-  strips_.find();
 }
 
 SidesByDirection SideLengths::sumsOf(Index patch, const std::vector<double>& length) const
@@ -142,13 +140,13 @@ std::vector<SidesByDirection> SideLengths::sumsBeforeCorners(const PatchLoop& lo
 /// By the patch alone; none where no move lessens its unevenness by more than it costs.
 std::optional<TurnMove> SideLengths::bestMove(Index patch) const
 {
+  if (sides_.isFree(patch))
+  {
+    return std::nullopt;
+  }
   std::optional<TurnMove> best;
   const SidesByDirection all = sumsOf(patch, length_);
   double least = unevenness(all);
-  if (sides_.isFree(patch))
-  {
-    return best;
-  }
   for (const Index l : loopsOfPatch_[patch])
   {
     const std::vector<SidesByDirection> before = sumsBeforeCorners(sides_.loops()[l]);

@@ -10,6 +10,7 @@
 #include "CrossField/PatchSides.h"
 #include "CrossField/PatchStrips.h"
 
+#include <optional>
 #include <vector>
 
 namespace quadrille
