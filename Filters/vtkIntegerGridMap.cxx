@@ -36,6 +36,7 @@ double fieldNumber(vtkPolyData* data, const char* name)
 quadrille::GridMapOptions optionsFor(vtkPolyData* input, double edgeLength)
 {
   quadrille::GridMapOptions options;
+  options.sizes = quadrille::SizeWish::Everywhere; // nothing tells why the level has its sizes
   options.edgeLength = edgeLength;
   if (edgeLength == 0)
   {

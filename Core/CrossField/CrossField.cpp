@@ -318,8 +318,9 @@ std::vector<int> turnPatches(const Change& change, Solution& solution)
 void adaptToSizes(const Change& change, const std::vector<int>& sectorTurns, Solution& solution)
 {
   const CrossFieldOptions& options = change.options;
+  const bool isAtPlaces = options.sizes == SizeWish::AtPlaces;
   const std::vector<int> targets = valencesForSizes(change.mesh, change.topology, solution.turns,
-    options.targetValences, { options.localSizes, quadsOf(change.topology, options) });
+    options.targetValences, { isAtPlaces, quadsOf(change.topology, options) });
   if (targets.empty())
   {
     return;
@@ -329,8 +330,7 @@ void adaptToSizes(const Change& change, const std::vector<int>& sectorTurns, Sol
     withTurns(change, prescribeTurns(change.mesh, change.topology, targets, sectorTurns), solution);
   if (other &&
     sizeError(change.mesh, change.topology, other->turns) <
-      (options.localSizes ? 1 : kWorthwhileError) *
-        sizeError(change.mesh, change.topology, solution.turns))
+      (isAtPlaces ? 1 : kWorthwhileError) * sizeError(change.mesh, change.topology, solution.turns))
   {
     countTryLed(Try::ValencesForSizes);
     solution = std::move(*other);
@@ -415,7 +415,7 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
   if (best.status.ok())
   {
     const std::vector<int> sectors = turnPatches(change, best);
-    if (!mesh.sizing.empty())
+    if (!mesh.sizing.empty() && options.sizes != SizeWish::None)
     {
       adaptToSizes(change, sectors, best);
     }

@@ -33,6 +33,17 @@ struct FieldLine
     along; ///< its direction, of any length, in each face; one more than `crossed`
 };
 
+/// Where sizes are asked for. Those that are made smaller for the sake of short loops alone are not: between the
+/// features of a part the map follows them as far as its turns let it.
+enum class SizeWish
+{
+  None,
+  Everywhere,
+  /// At some places, whose quads are few: an irregular vertex more is worth what it does for some quads there, see
+  /// kQuadsOfVertex, and not for a share of the surface.
+  AtPlaces
+};
+
 struct CrossFieldOptions
 {
   double targetEdgeLength = 0; ///< s > 0; features of the field below this size are smoothed away
@@ -50,9 +61,8 @@ struct CrossFieldOptions
   /// Empty or #H: quarter turns that the sector from a constrained half-edge on must make, met exactly; 0 where free. A
   /// target valence of its vertex comes before it.
   std::vector<int> sectorTurns;
-  /// Whether the sizes of the mesh were asked for at some places, whose quads are few: an irregular vertex more is
-  /// worth what it does for some quads there, see kQuadsOfVertex, and not for a share of the surface.
-  bool localSizes = false;
+  /// Whether irregular vertices move so that quads can follow the sizes of the mesh, if it has some.
+  SizeWish sizes = SizeWish::None;
 };
 
 /// A line of the map along an axis that joins two vertices, or closes on itself, along a way through the faces: the

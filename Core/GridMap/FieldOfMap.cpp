@@ -22,7 +22,7 @@ void FieldOfMap::computeField()
   fieldOptions.progress = subProgress(options_.progress, 0.0, 0.1);
   fieldOptions.guides = options_.guides;
   fieldOptions.targetValences = options_.targetValences;
-  fieldOptions.localSizes = options_.localSizes;
+  fieldOptions.sizes = options_.sizes;
   fieldOptions.regular.assign(options_.fewIrregular ? mesh_.vertexCount() : 0, 1);
   fieldOptions.sectorTurns =
     straightSectors(mesh_, straight_, seamSectors(mesh_, seams_, options_.sectorTurns));

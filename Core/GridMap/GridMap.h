@@ -54,7 +54,7 @@ struct GridMapOptions
   std::vector<Guide> guides;       ///< empty or #F, see CrossFieldOptions
   std::vector<int> targetValences; ///< empty or #V, the same
   std::vector<int> sectorTurns;    ///< empty or #H, the same
-  bool localSizes = false;         ///< the same
+  SizeWish sizes = SizeWish::None; ///< the same
   /// Connections and cycles, on or near the mesh. Where no map has them all, the newest ones are left out, which
   /// GridMapResult::curves tells. Not by the methods that round.
   std::vector<CurveRequest> curves;
