@@ -5,7 +5,7 @@
 #include "Base/Clock.h"
 #include "Base/Lists.h"
 #include "Base/Progress.h"
-#include "Hierarchy/GuideRegions.h"
+#include "Hierarchy/GuidesOfLevel.h"
 #include "Hierarchy/HierarchyChecks.h"
 #include "Hierarchy/LevelTerms.h"
 #include "Hierarchy/LogBuilder.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Hierarchy/GuideRegions.h"
+#include "Hierarchy/GuidesOfLevel.h"
 
 #include "Base/Parallel.h"
 #include "Mesh/Distance.h"
@@ -20,7 +20,6 @@ namespace
 
 /// A walk to the face below a point ends when so many steps have brought it no nearer.
 constexpr int kVainSteps = 24;
-constexpr std::size_t kRegionChunk = 256;
 /// What is thinner than this to each side, over `reach`, leads as much beside it as well: quads do not turn by
 /// a line of triangles much smaller than they are.
 constexpr double kHalfWidth = 3;
@@ -154,7 +153,7 @@ private:
     const std::vector<Index> outgoing = outgoingHalfEdges(fine_);
     const Eigen::AlignedBox3d box = boxOf(fine_, guides_, margin);
     const Mesh& mesh = level_.mesh;
-    parallelFor(mesh.faceCount(), kRegionChunk, threads,
+    parallelFor(mesh.faceCount(), kHeavyChunk, threads,
       [&](std::size_t begin, std::size_t end)
       {
         FaceFinder finder(fine_, outgoing);

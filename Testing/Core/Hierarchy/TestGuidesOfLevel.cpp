@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Hierarchy/GuideRegions.h"
+#include "BothPhases.h"
+#include "Hierarchy/GuidesOfLevel.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/Topology.h"
 #include "TestMeshes.h"
@@ -58,7 +59,7 @@ struct Square
   }
 };
 
-TEST(GuideRegions, StrokesLeadBesideThemAndWideRegionsDoNot)
+TEST(GuidesOfLevel, StrokesLeadBesideThemAndWideRegionsDoNot)
 {
   const Mesh mesh = gridPlane(60, 60);
   Level level;
@@ -96,7 +97,7 @@ void expectSame(const Hierarchy& a, const Hierarchy& b)
   EXPECT_EQ(a.log.serialize(), b.log.serialize());
 }
 
-TEST(GuideRegions, ChangeNoTriangleAndLeaveNoTrace)
+TEST(GuidesOfLevel, ChangeNoTriangleAndLeaveNoTrace)
 {
   Square square;
   square.options.threads = 2;
@@ -123,7 +124,7 @@ TEST(GuideRegions, ChangeNoTriangleAndLeaveNoTrace)
   }
 }
 
-TEST(GuideRegions, AStoppedChangeLeavesNoTrace)
+TEST(GuidesOfLevel, AStoppedChangeLeavesNoTrace)
 {
   const Square square;
   HierarchyOptions free = square.options;
@@ -140,7 +141,7 @@ TEST(GuideRegions, AStoppedChangeLeavesNoTrace)
   expectSame(levels.update(free), buildHierarchy(square.mesh, 1, free));
 }
 
-TEST(GuideRegions, TheSameForAnyNumberOfThreads)
+TEST(GuidesOfLevel, TheSameForAnyNumberOfThreads)
 {
   const Mesh mesh = sphere(5);
   HierarchyOptions options;
@@ -155,7 +156,7 @@ TEST(GuideRegions, TheSameForAnyNumberOfThreads)
   expectSame(one, buildHierarchy(mesh, 1, options));
 }
 
-TEST(GuideRegions, GuidesOutOfOrderAreRefused)
+TEST(GuidesOfLevel, GuidesOutOfOrderAreRefused)
 {
   Square square;
   Redecimation levels(square.mesh, 1, square.options);
