@@ -26,7 +26,7 @@ public:
   DisjointSets(std::size_t count, int threads)
     : count_(count), threads_(threads), parent_(new std::atomic<Index>[count])
   {
-    parallelForEach(count, kSetChunk, threads,
+    parallelForEach(count, kLightChunk, threads,
       [&](std::size_t i) { parent_[i].store(static_cast<Index>(i), std::memory_order_relaxed); });
   }
 
@@ -71,13 +71,11 @@ public:
   /// Number of sets.
   std::size_t countSets() const
   {
-    return parallelCount(count_, kSetChunk, threads_,
+    return parallelCount(count_, kLightChunk, threads_,
       [&](std::size_t i) { return parent_[i].load(std::memory_order_relaxed) == i; });
   }
 
 private:
-  static constexpr std::size_t kSetChunk = std::size_t{ 1 } << 15;
-
   std::size_t count_;
   int threads_;
   std::unique_ptr<std::atomic<Index>[]> parent_;

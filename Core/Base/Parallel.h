@@ -13,6 +13,13 @@
 namespace quadrille
 {
 
+/// Sizes of chunks, by the time that an element takes: some nanoseconds; some hundred, with data of a chunk that fit a
+/// second level cache; a microsecond and more. Where parts are sums of floating-point numbers their bytes follow from
+/// the size.
+constexpr std::size_t kLightChunk = std::size_t{ 1 } << 16;
+constexpr std::size_t kMediumChunk = std::size_t{ 1 } << 12;
+constexpr std::size_t kHeavyChunk = std::size_t{ 1 } << 8;
+
 /// The number of threads to use for a request: 0 means all hardware threads. At least 1.
 int resolveThreads(int requested);
 

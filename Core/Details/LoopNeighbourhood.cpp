@@ -20,7 +20,6 @@ namespace
 
 /// A part of more than so much of the surface is not worth it.
 constexpr std::size_t kLeastShare = 4;
-constexpr std::size_t kPieceChunk = std::size_t{ 1 } << 15;
 
 class Neighbourhood
 {
@@ -221,7 +220,7 @@ private:
   DisjointSets piecesOfRest() const
   {
     DisjointSets pieces(mesh_.faceCount(), threads_);
-    parallelForEach(mesh_.faceCount(), kPieceChunk, threads_,
+    parallelForEach(mesh_.faceCount(), kLightChunk, threads_,
       [&](Index f)
       {
         for (Index h = 3 * f; h < 3 * f + 3; ++h)

@@ -22,7 +22,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kNodeChunk = 256;
 /// How far a node has moved: 0 not, 1 along the surface, then off it until the straight edge.
 using MoveLevel = std::uint8_t;
 constexpr MoveLevel kAlong = 1;
@@ -239,7 +238,7 @@ private:
 
   void place(std::size_t first, std::size_t last)
   {
-    parallelFor(last - first, kNodeChunk, options_.threads,
+    parallelFor(last - first, kHeavyChunk, options_.threads,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t n = first + begin; n < first + end; ++n)
@@ -336,7 +335,7 @@ private:
       tree_ = std::make_unique<NearestTriangle>(std::move(list));
     }
     countTry(Try::CentreOtherwise, lost.size());
-    parallelForEach(lost.size(), kNodeChunk, options_.threads,
+    parallelForEach(lost.size(), kHeavyChunk, options_.threads,
       [&](std::size_t i)
       {
         const Vector3 wanted = straightPlace(lost[i]);
@@ -483,7 +482,7 @@ private:
   std::vector<Index> foldedOf(const std::vector<Index>& check)
   {
     std::vector<std::uint8_t> isBad(check.size(), 0);
-    parallelForEach(check.size(), kNodeChunk, options_.threads,
+    parallelForEach(check.size(), kHeavyChunk, options_.threads,
       [&](std::size_t i) {
         isBad[i] = isInverted(cornersOfQuad(check[i])) ? 2 : isFolded(check[i]) ? 1 : 0;
       });

@@ -12,8 +12,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kTraceChunk = 1 << 9;
-
 enum class Step
 {
   Arrived,
@@ -251,7 +249,7 @@ CellCorners traceCells(const ExactMap& map, const GridVertices& grid, const Trac
   cells.orientation.assign(options.folded ? grid.portCount() : 0, 1);
   // Whether the sum passes the limit does not depend on the order of the threads.
   std::atomic<std::size_t> steps{ 0 };
-  parallelFor(grid.vertices().size(), kTraceChunk, options.threads,
+  parallelFor(grid.vertices().size(), kHeavyChunk, options.threads,
     [&](std::size_t begin, std::size_t end)
     {
       const std::size_t done = std::min<std::size_t>(steps, options.maximumSteps);

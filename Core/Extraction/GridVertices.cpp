@@ -23,7 +23,6 @@ SurfacePoint placeOnEdge(const ExactMap& map, const GridVertex& vertex)
   return CurvePoint{ vertex.site, t }.onSurface();
 }
 
-constexpr std::size_t kGridFaceChunk = 1 << 14;
 /// Corners of a vertex that are searched one by one.
 constexpr std::size_t kLargeFan = 64;
 
@@ -247,7 +246,7 @@ GridVertices::GridVertices(const ExactMap& map, int threads)
   : map_(map), faceFirst_(std::size_t{ map.mesh.faceCount() } + 1, 0)
 {
   const std::size_t faces = map.mesh.faceCount();
-  std::vector<Part> parts = parallelParts<Part>(faces, kGridFaceChunk, threads,
+  std::vector<Part> parts = parallelParts<Part>(faces, kMediumChunk, threads,
     [&](std::size_t begin, std::size_t end, Part& part)
     {
       for (std::size_t f = begin; f < end; ++f)
@@ -273,10 +272,10 @@ GridVertices::GridVertices(const ExactMap& map, int threads)
     portCount_ += part.ports;
   }
   vertices_.resize(total);
-  parallelFor(faces, kGridFaceChunk, threads,
+  parallelFor(faces, kMediumChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      const std::size_t chunk = begin / kGridFaceChunk;
+      const std::size_t chunk = begin / kMediumChunk;
       for (std::size_t q = 0; q < parts[chunk].vertices.size(); ++q)
       {
         vertices_[firstVertex[chunk] + q] = parts[chunk].vertices[q];

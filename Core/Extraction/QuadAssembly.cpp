@@ -18,8 +18,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kAssemblyChunk = 1 << 9;
-
 // ------------------------------------------------------------------ cells
 
 struct Cell
@@ -149,7 +147,7 @@ private:
 /// In the order of the grid vertices.
 std::vector<Parts> collect(const Collector& collector, std::size_t vertexCount, int threads)
 {
-  return parallelParts<Parts>(vertexCount, kAssemblyChunk, threads,
+  return parallelParts<Parts>(vertexCount, kHeavyChunk, threads,
     [&](std::size_t begin, std::size_t end, Parts& part)
     {
       for (std::size_t q = begin; q < end; ++q)
@@ -238,7 +236,7 @@ std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
   mesh.points.resize(used.size());
   mesh.sourceFace.resize(used.size());
   mesh.sourceWeights.resize(used.size());
-  parallelForEach(used.size(), kAssemblyChunk, threads,
+  parallelForEach(used.size(), kHeavyChunk, threads,
     [&](std::size_t i)
     {
       pointOf[used[i]] = static_cast<Index>(i);

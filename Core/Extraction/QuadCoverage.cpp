@@ -15,8 +15,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kCoverageChunk = 256;
-
 /// Up to seven corners: a triangle cut by four lines.
 struct Polygon
 {
@@ -227,7 +225,7 @@ QuadCoverage coverQuads(
   QuadCoverage coverage;
   coverage.first.assign(count + 1, 0);
   using Shares = std::vector<FaceShare>;
-  std::vector<Shares> parts = parallelParts<Shares>(count, kCoverageChunk, threads,
+  std::vector<Shares> parts = parallelParts<Shares>(count, kHeavyChunk, threads,
     [&](std::size_t begin, std::size_t end, Shares& part)
     {
       Coverer coverer(mesh, uv, quads);
@@ -240,7 +238,7 @@ QuadCoverage coverQuads(
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
     const std::size_t before = coverage.shares.size();
-    for (std::size_t q = i * kCoverageChunk; q < std::min(count, (i + 1) * kCoverageChunk); ++q)
+    for (std::size_t q = i * kHeavyChunk; q < std::min(count, (i + 1) * kHeavyChunk); ++q)
     {
       coverage.first[q + 1] += before;
     }

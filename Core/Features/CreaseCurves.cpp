@@ -36,7 +36,6 @@ constexpr double kRoughPerLength = kMostRough / 25;
 constexpr double kMostRoughWithOneEnd = 0.5;
 /// Noise makes no curve of so many edge lengths.
 constexpr double kLongCrease = 50;
-constexpr std::size_t kCurveChunk = 1;
 
 double meanOf(const std::vector<double>& values)
 {

@@ -19,7 +19,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kEdgeChunk = 64;
 /// Rings of vertices round an edge whose edges are looked at.
 constexpr int kCreaseRings = 2;
 /// The search does not go on from vertices with more edges, as the tip of a fan is near to all of its rim.
@@ -110,8 +109,8 @@ private:
   {
     near_.resize(edges_.size());
     blunt_.assign(edges_.size(), 0.0);
-    parallelForEach(
-      edges_.size(), kEdgeChunk, threads, [&](std::size_t i) { lookRound(static_cast<Index>(i)); });
+    parallelForEach(edges_.size(), kHeavyChunk, threads,
+      [&](std::size_t i) { lookRound(static_cast<Index>(i)); });
   }
 
   void lookRound(Index i)

@@ -21,9 +21,6 @@ namespace quadrille
 namespace
 {
 
-/// Faces, whose normals fit a second level cache.
-constexpr std::size_t kFeatureChunk = 16384;
-
 /// A plane counts from this part of the area on: facets of a coarse sampling, which may lie in one plane, are smaller.
 constexpr double kPlane = 0.005;
 /// The part of the area in such planes from which on a surface is designed: printed parts have 0.24 to 0.95, scans 0 to
@@ -34,7 +31,7 @@ void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int th
 {
   const double limit = std::cos(angle);
   std::uint8_t* const flags = mesh.flags.edit();
-  parallelFor(mesh.faceCount(), kFeatureChunk, threads,
+  parallelFor(mesh.faceCount(), kMediumChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<Vector3> known(end - begin); // faces next to each other are mostly in one chunk
@@ -65,7 +62,7 @@ void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int th
 std::vector<Index> edgesInPlanes(const Mesh& mesh, const FaceNormals& normals, int threads)
 {
   const double least = std::cos(kOnePlane);
-  return parallelGather<Index>(mesh.faceCount(), kFeatureChunk, threads,
+  return parallelGather<Index>(mesh.faceCount(), kMediumChunk, threads,
     [&](Index f, std::vector<Index>& found)
     {
       const Vector3 normal = normals.of(f);

@@ -18,7 +18,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kSnapChunk = 1 << 14;
 constexpr double kLimit = 1 << 20;
 /// Beyond this, in quads, two images of an edge or a translation are not merely imprecise.
 constexpr double kSnapTolerance = 0.1;
@@ -45,7 +44,7 @@ void checkSnapArguments(
             "zero, or write them in double precision";
     throw InvalidInput(text.str());
   }
-  const std::size_t h = firstRefused(uv.size(), kSnapChunk, options.threads,
+  const std::size_t h = firstRefused(uv.size(), kMediumChunk, options.threads,
     [&uv](std::size_t i)
     { return std::abs(uv[i].x()) < kLimit && std::abs(uv[i].y()) < kLimit; }); // not for NaN
   if (h < uv.size())
@@ -178,7 +177,7 @@ public:
     result_.uv.resize(uv_.size());
     const std::vector<Index> outgoing = outgoingHalfEdges(mesh_);
     for (const SnapResult& part :
-      parallelParts<SnapResult>(outgoing.size(), kSnapChunk, options_.threads,
+      parallelParts<SnapResult>(outgoing.size(), kMediumChunk, options_.threads,
         [&](std::size_t begin, std::size_t end, SnapResult&snapped)
         {
           std::vector<Corner> corners;
@@ -294,7 +293,7 @@ private:
   {
     const std::size_t count = mesh_.halfEdgeCount();
     EdgeFaults whole;
-    for (const EdgeFaults& part : parallelParts<EdgeFaults>(count, kSnapChunk, options_.threads,
+    for (const EdgeFaults& part : parallelParts<EdgeFaults>(count, kMediumChunk, options_.threads,
            [&](std::size_t begin, std::size_t end, EdgeFaults&found)
            {
              for (Index h = static_cast<Index>(begin); h < end; ++h)
@@ -437,7 +436,7 @@ private:
 std::vector<FixedVec2> onGrid(const std::vector<Vector2>& uv, int threads)
 {
   std::vector<FixedVec2> fixed(uv.size());
-  const std::size_t refused = firstRefused(uv.size(), kSnapChunk, threads,
+  const std::size_t refused = firstRefused(uv.size(), kMediumChunk, threads,
     [&](std::size_t h)
     {
       fixed[h] = toFixed(uv[h]);

@@ -20,10 +20,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kWorstFaces = 16;
-constexpr std::size_t kCertificateChunk = 1
-  << 14; ///< faces; their uv and twins fit a second level cache
-
 using FaceValue = std::pair<Int128, Index>;
 
 /// What one chunk of faces adds to the certificate.
@@ -258,7 +254,7 @@ Certificate certify(const Mesh& mesh, const std::vector<FixedVec2>& uv,
   result.triangles = mesh.faceCount();
   std::vector<std::int8_t> entered(mesh.halfEdgeCount(), 0);
   const std::vector<Partial> partials =
-    parallelParts<Partial>(mesh.faceCount(), kCertificateChunk, threads,
+    parallelParts<Partial>(mesh.faceCount(), kMediumChunk, threads,
       [&](std::size_t begin, std::size_t end, Partial& partial)
       {
         checkFaces(mesh, uv, integerVertex, static_cast<Index>(begin), static_cast<Index>(end),

@@ -27,7 +27,6 @@ constexpr std::uint64_t kStlHeaderBytes = 84;
 constexpr std::size_t kRowBytes = 50;
 constexpr std::uint64_t kMostTriangles =
   400000000; // their corners, and the slots of a table, have 31 bits
-constexpr std::size_t kCornerChunk = std::size_t{ 1 } << 16;
 
 /// What the file announces; 0 where it is too short to do so.
 std::uint64_t announcedTriangles(const std::string& path)
@@ -57,7 +56,7 @@ public:
       size_ *= 2;
     }
     table_.reset(new std::atomic<Index>[size_]);
-    parallelForEach(size_, kCornerChunk, threads,
+    parallelForEach(size_, kLightChunk, threads,
       [&](std::size_t i) { table_[i].store(kInvalidIndex, std::memory_order_relaxed); });
   }
 
@@ -65,11 +64,11 @@ public:
   NumberArray number(std::int32_t* ids)
   {
     const std::size_t corners = coordinates_.size() / 3;
-    parallelForEach(corners, kCornerChunk, threads_,
+    parallelForEach(corners, kLightChunk, threads_,
       [&](std::size_t i) { ids[i] = static_cast<std::int32_t>(put(static_cast<Index>(i))); });
     const auto isFirst = [&](std::size_t i)
     { return table_[static_cast<std::size_t>(ids[i])].load(std::memory_order_relaxed) == i; };
-    const auto counts = parallelParts<Index>(corners, kCornerChunk, threads_,
+    const auto counts = parallelParts<Index>(corners, kLightChunk, threads_,
       [&](std::size_t begin, std::size_t end, Index& count)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -81,10 +80,10 @@ public:
     std::partial_sum(counts.begin(), counts.end(), firsts.begin() + 1);
     NumberArray points(NumberType::Float32, 3, firsts.back());
     auto* const to = points.as<float>();
-    parallelFor(corners, kCornerChunk, threads_,
+    parallelFor(corners, kLightChunk, threads_,
       [&](std::size_t begin, std::size_t end)
       {
-        Index next = firsts[begin / kCornerChunk];
+        Index next = firsts[begin / kLightChunk];
         for (std::size_t i = begin; i < end; ++i)
         {
           if (
@@ -96,7 +95,7 @@ public:
           }
         }
       });
-    parallelForEach(corners, kCornerChunk, threads_,
+    parallelForEach(corners, kLightChunk, threads_,
       [&](std::size_t i)
       {
         ids[i] = static_cast<std::int32_t>(

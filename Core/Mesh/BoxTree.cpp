@@ -7,13 +7,6 @@
 
 namespace quadrille
 {
-namespace
-{
-
-constexpr std::size_t kBoxChunk = 4096;
-
-} // namespace
-
 BoxTree::BoxTree(const std::vector<Box>& boxes, int threads)
 {
   if (boxes.empty())
@@ -29,7 +22,7 @@ BoxTree::BoxTree(const std::vector<Box>& boxes, int threads)
   const auto addLevel = [&](std::size_t count, const auto& boxOf)
   {
     std::vector<Box> level((count + kBoxChildren - 1) / kBoxChildren);
-    parallelForEach(level.size(), kBoxChunk, threads,
+    parallelForEach(level.size(), kMediumChunk, threads,
       [&](std::size_t k)
       {
         level[k] = boxOf(kBoxChildren * k);

@@ -13,9 +13,6 @@
 namespace quadrille
 {
 
-/// Elements that one thread takes at a time where a surface is put in order.
-constexpr std::size_t kOrderChunk = 65536;
-
 /// What was sorted into buckets.
 template <typename Item>
 struct Buckets
@@ -31,7 +28,7 @@ Buckets<Item> sortIntoBuckets(
   std::size_t count, int threads, const BucketOf& bucketOf, const ItemOf& itemOf)
 {
   using Counts = std::array<std::size_t, kBuckets + 1>;
-  auto next = parallelParts<Counts>(count, kOrderChunk, threads,
+  auto next = parallelParts<Counts>(count, kLightChunk, threads,
     [&](std::size_t first, std::size_t last, Counts& counts)
     {
       for (std::size_t i = first; i < last; ++i)
@@ -52,10 +49,10 @@ Buckets<Item> sortIntoBuckets(
   }
   buckets.begin.push_back(sum);
   growLarge(buckets.items, sum);
-  parallelFor(count, kOrderChunk, threads,
+  parallelFor(count, kLightChunk, threads,
     [&](std::size_t first, std::size_t last)
     {
-      Counts& place = next[first / kOrderChunk];
+      Counts& place = next[first / kLightChunk];
       for (std::size_t i = first; i < last; ++i)
       {
         const std::size_t bucket = bucketOf(i);

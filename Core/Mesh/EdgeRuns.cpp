@@ -18,8 +18,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kBucketChunk = 16384;
-
 /// Up to this size a bucket is sorted by counting for each entry how many come before it, which needs no branch
 /// that depends on data; a vertex of most meshes has about three edges to higher ones.
 constexpr std::size_t kSmallBucket = 16;
@@ -124,7 +122,7 @@ void EdgeRuns::fill(const std::vector<Index>& origin)
 
 void EdgeRuns::sortBuckets(int threads)
 {
-  parallelForEach(begin_.size() - 1, kBucketChunk, threads,
+  parallelForEach(begin_.size() - 1, kMediumChunk, threads,
     [&](std::size_t v) { sortBucket(entries_.data() + begin_[v], begin_[v + 1] - begin_[v]); });
 }
 

@@ -16,8 +16,6 @@
 namespace quadrille
 {
 
-constexpr std::size_t kPointChunk = 65536;
-
 /// Which points are the corner of a polygon.
 class UsedPoints
 {
@@ -26,9 +24,9 @@ public:
   UsedPoints(const std::vector<Index>& corners, std::size_t points, int threads)
     : count_(points), used_(new std::atomic<std::uint8_t>[points])
   {
-    parallelForEach(points, kPointChunk, threads,
+    parallelForEach(points, kLightChunk, threads,
       [&](std::size_t i) { used_[i].store(0, std::memory_order_relaxed); });
-    parallelForEach(corners.size(), kPointChunk, threads,
+    parallelForEach(corners.size(), kLightChunk, threads,
       [&](std::size_t i)
       {
         if (corners[i] != kInvalidIndex)
@@ -41,7 +39,7 @@ public:
   bool has(std::size_t i) const { return used_[i].load(std::memory_order_relaxed) != 0; }
   bool hasAll(int threads) const
   {
-    return firstRefused(count_, kPointChunk, threads, [this](std::size_t i) { return has(i); }) ==
+    return firstRefused(count_, kLightChunk, threads, [this](std::size_t i) { return has(i); }) ==
       count_;
   }
 
@@ -67,7 +65,7 @@ PointBox boxOfPoints(const std::vector<Vector3>& points, int threads, const IsCo
     box.high = part.first ? Vector3(box.high.cwiseMax(high)) : high;
     part.first = true;
   };
-  const auto parts = parallelParts<std::pair<bool, PointBox>>(points.size(), kPointChunk, threads,
+  const auto parts = parallelParts<std::pair<bool, PointBox>>(points.size(), kLightChunk, threads,
     [&](std::size_t begin, std::size_t end, std::pair<bool, PointBox>& part)
     {
       for (std::size_t i = begin; i < end; ++i)

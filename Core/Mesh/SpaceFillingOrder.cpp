@@ -97,7 +97,7 @@ std::vector<std::uint64_t> computeKeys(const std::vector<Vector3>& points, int t
   const double scale = extent > 0 ? last / extent : 0;
 
   std::vector<std::uint64_t> keys(points.size());
-  parallelFor(points.size(), kOrderChunk, threads,
+  parallelFor(points.size(), kLightChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t first = begin; first < end; first += kCellLanes)

@@ -40,11 +40,11 @@ public:
     const std::size_t bytes = values.size() * sizeof(T);
     reserveLarge(buffer_, bytes, threads_);
     growLarge(buffer_, std::max(buffer_.size(), bytes));
-    parallelFor(bytes, kBytes * kOrderChunk, threads_,
+    parallelFor(bytes, kBytes * kLightChunk, threads_,
       [&](std::size_t begin, std::size_t end)
       { std::memcpy(&buffer_[begin], bytesOf(values) + begin, end - begin); });
     values.resize(order.size() * kWidth);
-    parallelForEach(order.size(), kOrderChunk, threads_,
+    parallelForEach(order.size(), kLightChunk, threads_,
       [&](std::size_t i) {
         std::memcpy(
           bytesOf(values) + i * kBytes, &buffer_[std::size_t{ order[i] } * kBytes], kBytes);
@@ -144,7 +144,7 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
     {
       permute.operator()<1>(mesh.sizing, order);
     }
-    parallelForEach(order.size(), kOrderChunk, threads,
+    parallelForEach(order.size(), kLightChunk, threads,
       [&](std::size_t i)
       { newId[kept.empty() ? order[i] : kept[order[i]]] = static_cast<Index>(i); });
     if (!surface.vertexBefore.empty())
@@ -153,7 +153,7 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
     }
   }
   Index* origin = mesh.origin.edit();
-  parallelForEach(mesh.origin.size(), kOrderChunk, threads,
+  parallelForEach(mesh.origin.size(), kLightChunk, threads,
     [&](std::size_t h)
     { origin[h] = origin[h] == kInvalidIndex ? kInvalidIndex : newId[origin[h]]; });
   renameRequests(surface, [&](Index v) { return newId[v]; });

@@ -18,17 +18,14 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kSelectChunk = std::size_t{ 1 } << 17;
-constexpr std::size_t kOutgoingChunk = std::size_t{ 1 } << 17;
-
 /// See outgoingHalfEdges.
 std::vector<Index> outgoingByThreads(const Mesh& mesh, int threads)
 {
   const std::size_t vertices = mesh.vertexCount();
   std::unique_ptr<std::atomic<Index>[]> first(new std::atomic<Index>[vertices]);
-  parallelForEach(vertices, kOutgoingChunk, threads,
+  parallelForEach(vertices, kLightChunk, threads,
     [&](std::size_t v) { first[v].store(kInvalidIndex, std::memory_order_relaxed); });
-  parallelForEach(mesh.halfEdgeCount(), kOutgoingChunk, threads,
+  parallelForEach(mesh.halfEdgeCount(), kLightChunk, threads,
     [&](Index h)
     {
       std::atomic<Index>& lowest = first[mesh.origin[h]];
@@ -38,7 +35,7 @@ std::vector<Index> outgoingByThreads(const Mesh& mesh, int threads)
       }
     });
   std::vector<Index> outgoing(vertices);
-  parallelForEach(vertices, kOutgoingChunk, threads,
+  parallelForEach(vertices, kLightChunk, threads,
     [&](std::size_t v) { outgoing[v] = first[v].load(std::memory_order_relaxed); });
   for (const Index h : boundaryHalfEdges(mesh, threads))
   {
@@ -200,9 +197,8 @@ std::string checkFans(const Mesh& mesh)
 /// Faces that hang together.
 DisjointSets joinedFaces(const Mesh& mesh, int threads)
 {
-  constexpr std::size_t kComponentChunk = std::size_t{ 1 } << 15;
   DisjointSets faces(mesh.faceCount(), threads);
-  parallelForEach(mesh.faceCount(), kComponentChunk, threads,
+  parallelForEach(mesh.faceCount(), kLightChunk, threads,
     [&](Index f)
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
@@ -220,10 +216,9 @@ DisjointSets joinedFaces(const Mesh& mesh, int threads)
 
 std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexCount, int threads)
 {
-  constexpr std::size_t kTopologyChunk = std::size_t{ 1 } << 14;
   std::vector<Index> twin(origin.size(), kInvalidIndex);
   const EdgeRuns runs(origin, vertexCount, threads);
-  const std::size_t refused = firstRefused(runs.bucketCount(), kTopologyChunk, threads,
+  const std::size_t refused = firstRefused(runs.bucketCount(), kMediumChunk, threads,
     [&](std::size_t v)
     {
       bool good = true;
@@ -255,7 +250,7 @@ std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexC
 
 std::vector<Index> outgoingHalfEdges(const Mesh& mesh, int threads)
 {
-  if (resolveThreads(threads) > 1 && mesh.halfEdgeCount() > kOutgoingChunk)
+  if (resolveThreads(threads) > 1 && mesh.halfEdgeCount() > kLightChunk)
   {
     return outgoingByThreads(mesh, threads);
   }
@@ -275,7 +270,7 @@ std::vector<Index> outgoingHalfEdges(const Mesh& mesh, int threads)
 std::vector<Index> constrainedEdges(const Mesh& mesh, int threads)
 {
   // The twin of a boundary half-edge is above all others.
-  return parallelSelect(mesh.halfEdgeCount(), kSelectChunk, threads,
+  return parallelSelect(mesh.halfEdgeCount(), kLightChunk, threads,
     [&](Index h) { return mesh.isConstrained(h) && h < mesh.twin[h]; });
 }
 
@@ -295,7 +290,7 @@ std::vector<std::uint8_t> constrainedVertices(const Mesh& mesh)
 std::vector<Index> boundaryHalfEdges(const Mesh& mesh, int threads)
 {
   return parallelSelect(
-    mesh.halfEdgeCount(), kSelectChunk, threads, [&](Index h) { return mesh.isBoundary(h); });
+    mesh.halfEdgeCount(), kLightChunk, threads, [&](Index h) { return mesh.isBoundary(h); });
 }
 
 Index countBoundaryLoops(const Mesh& mesh, const std::vector<Index>& boundary)

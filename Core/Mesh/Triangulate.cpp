@@ -13,8 +13,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kTriangleChunk = 65536;
-
 /// One polygon's corner: the input point, and whether the edge to the next corner is a feature.
 struct Corner
 {
@@ -259,7 +257,7 @@ bool isProperTriangle(const SurfaceInput& input, Index polygon)
 bool hasOnlyTriangles(const SurfaceInput& input, int threads)
 {
   const std::size_t polygons = input.polygonOffsets.size() - 1;
-  return firstRefused(polygons, kTriangleChunk, threads,
+  return firstRefused(polygons, kLightChunk, threads,
            [&](std::size_t polygon)
            { return isProperTriangle(input, static_cast<Index>(polygon)); }) == polygons;
 }
@@ -279,7 +277,7 @@ void copyTriangles(const SurfaceInput& input, PreparedSurface& surface, int thre
   growLarge(flags, 3 * faces);
   growLarge(sourcePoints, faces);
   growLarge(sourcePolygon, faces);
-  parallelForEach(faces, kTriangleChunk, threads,
+  parallelForEach(faces, kLightChunk, threads,
     [&](std::size_t f)
     {
       const Triangle triangle = orderedTriangle(input.polygonPoints.data() + 3 * f,

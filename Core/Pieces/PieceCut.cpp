@@ -17,8 +17,6 @@ namespace quadrille
 namespace
 {
 
-/// Triangles that are read at once.
-constexpr std::size_t kChunkOfPieces = 65536;
 /// Cells of the grid that pieces are made of: 2^kCellBits an axis.
 constexpr int kCellBits = 7;
 constexpr std::size_t kCells = std::size_t{ 1 } << (3 * kCellBits);
@@ -83,7 +81,7 @@ private:
     growLarge(cell_, faces);
     const double width = box_.diagonal().maxCoeff();
     const double scale = width > 0 ? (1 << kCellBits) / width : 0;
-    parallelFor(faces, kChunkOfPieces, threads_,
+    parallelFor(faces, kLightChunk, threads_,
       [&](std::size_t begin, std::size_t end)
       {
         ChunkReader reader(source_);
@@ -159,7 +157,7 @@ private:
 SourceExtent extentOf(const TriangleSource& source, int threads)
 {
   const std::size_t faces = source.triangleCount();
-  const auto parts = parallelParts<SourceExtent>(faces, kChunkOfPieces, threads,
+  const auto parts = parallelParts<SourceExtent>(faces, kLightChunk, threads,
     [&](std::size_t begin, std::size_t end, SourceExtent& part)
     {
       ChunkReader reader(source);

@@ -18,7 +18,6 @@ namespace
 {
 
 constexpr std::size_t kPlacesOfShape = 1000;
-constexpr std::size_t kChunkOfShape = 16;
 
 /// The faces of places at equal distances along the area, in the order of the mesh; a large one several times.
 std::vector<Index> facesOfPlaces(const Mesh& mesh, std::size_t places)
@@ -81,7 +80,7 @@ double shareThatTurns(const Mesh& mesh, double edgeLength, double turn, int thre
 {
   const std::vector<Index> faces = facesOfPlaces(mesh, kPlacesOfShape);
   std::vector<std::uint8_t> turns(faces.size(), 0);
-  parallelForEach(faces.size(), kChunkOfShape, threads,
+  parallelForEach(faces.size(), 1, threads,
     [&](std::size_t i)
     {
       const double curvature = curvatureRound(mesh, faces[i], 0.5 * edgeLength).largest;

@@ -15,8 +15,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kDegenerateChunk = 65536;
-
 /// See flipCaps.
 constexpr double kCapHeight = 1e-3;
 constexpr double kCapHeightOfBox = 1e-4;
@@ -228,7 +226,7 @@ private:
 std::vector<Index> findDegenerate(const Mesh& mesh, int threads)
 {
   return parallelSelect(
-    mesh.faceCount(), kDegenerateChunk, threads, [&](Index f) { return isDegenerate(mesh, f); });
+    mesh.faceCount(), kLightChunk, threads, [&](Index f) { return isDegenerate(mesh, f); });
 }
 
 } // namespace
@@ -262,7 +260,7 @@ std::size_t removeDegenerateFaces(PreparedSurface& surface, int threads)
 std::size_t flipCaps(PreparedSurface& surface, int threads)
 {
   CapFlipper flipper(surface);
-  for (const Index f : parallelSelect(surface.mesh.faceCount(), kDegenerateChunk, threads,
+  for (const Index f : parallelSelect(surface.mesh.faceCount(), kLightChunk, threads,
          [&](Index face) { return flipper.isCap(face); }))
   {
     flipper.push(f);

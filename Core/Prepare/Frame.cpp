@@ -19,8 +19,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kFrameChunk = 65536;
-
 /// Steps of the grid in the box's longest side, as a power of two: four times as fine as single precision.
 constexpr int kGridBits = 26;
 /// Where one edge in kFineShare is shorter than 2^kStepsOfEdge steps, the grid is finer, up to kMostGridBits.
@@ -92,7 +90,7 @@ double roundToGrid(double x)
 /// Whether all coordinates could have come as single precision.
 bool areFloats(const std::vector<Vector3>& points, int threads)
 {
-  return firstRefused(points.size(), kFrameChunk, threads,
+  return firstRefused(points.size(), kLightChunk, threads,
            [&](std::size_t i)
            { return points[i].cast<float>().cast<double>() == points[i]; }) == points.size();
 }
@@ -103,7 +101,7 @@ void toGrid(FramedInput& framed, const Snap& snap, double steps, int threads)
   reserveWithRoom(framed.input.points, framed.points.size(), threads);
   growLarge(framed.input.points, framed.points.size());
   Vector3* placed = framed.input.points.edit();
-  parallelForEach(framed.points.size(), kFrameChunk, threads,
+  parallelForEach(framed.points.size(), kLightChunk, threads,
     [&](std::size_t i)
     {
       for (int k = 0; k < 3; ++k)
@@ -184,7 +182,7 @@ bool firstPolygonDescends(const SurfaceInput& input)
 bool looksInwards(const SurfaceInput& input, int threads)
 {
   const std::size_t polygons = input.polygonOffsets.size() - 1;
-  const auto parts = parallelParts<std::array<double, 2>>(polygons, kFrameChunk, threads,
+  const auto parts = parallelParts<std::array<double, 2>>(polygons, kLightChunk, threads,
     [&](std::size_t begin, std::size_t end, std::array<double, 2>& part)
     {
       for (std::size_t p = begin; p < end; ++p)
@@ -287,7 +285,7 @@ FramedInput enterFrame(SurfaceInput input, int threads)
   frame.sign =
     signsOf(framed.input.points, used, boxOfPoints(framed.input.points, threads, isUsed));
   Vector3* placed = framed.input.points.edit();
-  parallelForEach(framed.input.points.size(), kFrameChunk, threads,
+  parallelForEach(framed.input.points.size(), kLightChunk, threads,
     [&](std::size_t i)
     {
       // Of the two zeros one.
@@ -361,7 +359,7 @@ void forEachUserPosition(const PreparedSurface& surface, const Frame& frame,
     Index& corner = first[mesh.origin[h]];
     corner = std::min(corner, h);
   }
-  parallelForEach(mesh.vertexCount(), kFrameChunk, threads,
+  parallelForEach(mesh.vertexCount(), kLightChunk, threads,
     [&](std::size_t v)
     {
       if (first[v] != kInvalidIndex)

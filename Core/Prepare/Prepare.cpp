@@ -84,13 +84,12 @@ void markFeatures(
 double sumOfAreas(const Mesh& mesh, int threads)
 {
   constexpr std::size_t kFacesAtOnce = std::size_t{ 1 } << 19;
-  constexpr std::size_t kAreaChunk = std::size_t{ 1 } << 15;
   std::vector<double> areas(std::min<std::size_t>(kFacesAtOnce, mesh.faceCount()));
   double area = 0;
   for (std::size_t first = 0; first < mesh.faceCount(); first += kFacesAtOnce)
   {
     const std::size_t count = std::min(kFacesAtOnce, mesh.faceCount() - first);
-    parallelForEach(count, kAreaChunk, threads,
+    parallelForEach(count, kLightChunk, threads,
       [&](std::size_t i)
       {
         const Index h = static_cast<Index>(3 * (first + i));

@@ -44,7 +44,6 @@ constexpr Index kLargeSurface = Index{ 1 } << 18;
 constexpr Index kFewAmong = 256;
 
 constexpr std::size_t kSplitsBetweenReports = 100000;
-constexpr std::size_t kFacesOfRefinement = std::size_t{ 1 } << 16;
 
 struct LongEdge
 {
@@ -124,7 +123,7 @@ public:
       queue_(limit_)
   {
     findScales(surface, maximumLength, threads);
-    const auto longEdges = parallelGather<LongEdge>(faces_, kFacesOfRefinement, threads,
+    const auto longEdges = parallelGather<LongEdge>(faces_, kLightChunk, threads,
       [&](Index f, std::vector<LongEdge>& found)
       {
         const std::array<double, 3> lengths = squaredLengths(f);
@@ -270,7 +269,7 @@ private:
 bool anyConstraint(const Mesh& mesh, int threads)
 {
   const std::size_t faces = mesh.faceCount();
-  return firstRefused(faces, kFacesOfRefinement, threads,
+  return firstRefused(faces, kLightChunk, threads,
            [&](std::size_t f)
            {
              const Index h = static_cast<Index>(3 * f);

@@ -23,8 +23,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kRepairChunk = 65536;
-
 /// A closed component needs at least the faces of a tetrahedron.
 constexpr Index kFewestClosedFaces = 4;
 
@@ -50,7 +48,7 @@ void checkOffsets(const SurfaceInput& input)
 
 void checkIds(const SurfaceInput& input, int threads)
 {
-  parallelForEach(input.polygonOffsets.size() - 1, kRepairChunk, threads,
+  parallelForEach(input.polygonOffsets.size() - 1, kLightChunk, threads,
     [&](std::size_t polygon)
     {
       for (Index i = input.polygonOffsets[polygon]; i < input.polygonOffsets[polygon + 1]; ++i)
@@ -62,7 +60,7 @@ void checkIds(const SurfaceInput& input, int threads)
 
 void checkCoordinates(const SurfaceInput& input, int threads)
 {
-  parallelForEach(input.points.size(), kRepairChunk, threads,
+  parallelForEach(input.points.size(), kLightChunk, threads,
     [&](std::size_t i) { requireCoordinates(i, input.points[i]); });
 }
 

@@ -153,8 +153,7 @@ QuadProjectionReport projectQuads(std::vector<Vector3>& points, const QuadList& 
   const NearestTriangle halves(halvesOf(before, quads));
   const PointTargets targets{ surface, halves, options.distance, std::cos(options.angle) };
   std::vector<PointFate> fates(points.size());
-  constexpr std::size_t kPointsAtATime = 256;
-  parallelForEach(points.size(), kPointsAtATime, options.threads,
+  parallelForEach(points.size(), kHeavyChunk, options.threads,
     [&](std::size_t i) { fates[i] = targets.fateOf(before[i], normals[i], points[i]); });
   keepQuadsConvex(before, quads, points, fates);
   return countFates(fates);

@@ -17,7 +17,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kSmoothingChunk = 256;
 /// A move must not shorten the shortest edge at a point below this part of their mean: the scaled
 /// Jacobian does not see lengths.
 constexpr double kShortQuadEdge = 0.35;
@@ -134,7 +133,7 @@ private:
     for (const std::vector<Index>& points : classes_)
     {
       std::vector<std::uint8_t> moved(points.size(), 0);
-      parallelForEach(points.size(), kSmoothingChunk, options_.threads,
+      parallelForEach(points.size(), kHeavyChunk, options_.threads,
         [&](std::size_t i) { moved[i] = improve(points[i]) ? 1 : 0; });
       moves += static_cast<std::size_t>(std::count(moved.begin(), moved.end(), 1));
     }

@@ -17,8 +17,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kQuadTopologyChunk = std::size_t{ 1 } << 11;
-
 using Quads = std::vector<std::array<Index, 4>>;
 
 /// The corners of quads: corner, and half-edge, 4q + i.
@@ -87,9 +85,9 @@ public:
   LeavingHalfEdges(const Cells& cells, std::size_t pointCount, int threads)
     : first_(new std::atomic<Index>[pointCount]), next_(cells.firstOf(cells.cells()))
   {
-    parallelForEach(pointCount, kQuadTopologyChunk, threads,
+    parallelForEach(pointCount, kMediumChunk, threads,
       [this](std::size_t p) { first_[p].store(kInvalidIndex, std::memory_order_relaxed); });
-    const std::size_t wrong = firstRefused(next_.size(), 4 * kQuadTopologyChunk, threads,
+    const std::size_t wrong = firstRefused(next_.size(), kMediumChunk, threads,
       [&](std::size_t i)
       {
         const Index h = static_cast<Index>(i);
@@ -257,7 +255,7 @@ void checkCell(const Cells& cells, std::size_t cell, DisjointSets& sets, QuadCou
 template <typename Body>
 void overChunks(std::size_t size, int threads, QuadTopology& topology, const Body& body)
 {
-  for (const QuadCounts& part : parallelParts<QuadCounts>(size, kQuadTopologyChunk, threads, body))
+  for (const QuadCounts& part : parallelParts<QuadCounts>(size, kMediumChunk, threads, body))
   {
     topology.add(part);
   }

@@ -10,13 +10,11 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kShapeChunk = std::size_t{ 1 } << 17;
-
 CurveGraph constrainedGraph(const Mesh& mesh, int threads)
 {
   using Edges = std::vector<std::pair<Index, Index>>;
   Edges edges;
-  for (const Edges& part : parallelParts<Edges>(mesh.halfEdgeCount(), kShapeChunk, threads,
+  for (const Edges& part : parallelParts<Edges>(mesh.halfEdgeCount(), kLightChunk, threads,
          [&](std::size_t begin, std::size_t end, Edges&found)
          {
            for (Index h = static_cast<Index>(begin); h < end; ++h)

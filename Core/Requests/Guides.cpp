@@ -24,7 +24,6 @@ namespace
 
 /// Sine of the angle to the normal below which a direction says nothing about the plane: half a degree.
 constexpr double kLeastTangent = 0.01;
-constexpr std::size_t kHalfEdgeChunk = 3 << 15;
 
 bool isGiven(const Vector3& direction)
 {
@@ -105,7 +104,7 @@ std::vector<ValenceRequest> cornerRequests(
   {
     isHeld[held.point] |= held.sectors.empty() ? 1 : 0;
   }
-  auto requests = parallelGather<ValenceRequest>(mesh.halfEdgeCount(), kHalfEdgeChunk, threads,
+  auto requests = parallelGather<ValenceRequest>(mesh.halfEdgeCount(), kLightChunk, threads,
     [&](Index h, std::vector<ValenceRequest>& found)
     {
       const Index point = surface.inputPointAt(h);
@@ -258,8 +257,7 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)
   }
   const GuideOfFace guideOf(surface);
   const Mesh& mesh = surface.mesh;
-  constexpr std::size_t kGuideFaceChunk = kHalfEdgeChunk / 3;
-  const auto parts = parallelParts<SurfaceGuides>(mesh.faceCount(), kGuideFaceChunk, threads,
+  const auto parts = parallelParts<SurfaceGuides>(mesh.faceCount(), kLightChunk, threads,
     [&](Index begin, Index end, SurfaceGuides& part)
     {
       auto stroke = std::lower_bound(surface.strokeFaces.begin(), surface.strokeFaces.end(), begin,

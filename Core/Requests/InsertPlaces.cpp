@@ -28,7 +28,6 @@ namespace
 
 /// Points nearer to a vertex, or to an edge, take it, in s.
 constexpr double kTaken = 0.01;
-constexpr std::size_t kVertexChunk = 1 << 13;
 /// A path takes a vertex in place of a point of a shorter edge than this, in s: it is straight to a tenth of s.
 constexpr double kFineForPaths = 0.2;
 
@@ -208,7 +207,7 @@ private:
     };
     // Six half-edges leave a vertex.
     std::vector<std::uint8_t> mayTake(mesh_.vertexCount());
-    parallelForEach(mayTake.size(), kVertexChunk, threads_,
+    parallelForEach(mayTake.size(), kMediumChunk, threads_,
       [&](std::size_t v)
       {
         const Vector3& p = mesh_.position[v];

@@ -15,7 +15,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kPlaceChunk = std::size_t{ 1 } << 15;
 /// Of the mesh's size: points so near to a face lie on it, whatever rounding has done to both.
 constexpr double kOnMesh = 1e-5;
 
@@ -58,7 +57,7 @@ std::vector<FoundPlace> nearestWithin(
 {
   const SortedPoints sorted(points);
   using Candidate = std::pair<std::size_t, FoundPlace>;
-  const auto candidates = parallelGather<Candidate>(mesh.faceCount(), kPlaceChunk, threads,
+  const auto candidates = parallelGather<Candidate>(mesh.faceCount(), kLightChunk, threads,
     [&](Index f, std::vector<Candidate>& list)
     {
       const Vector3& a = mesh.position[mesh.origin[3 * f]];
@@ -88,7 +87,7 @@ std::vector<FoundPlace> nearestWithin(
 
 MeshPlace nearestOfAll(const Mesh& mesh, const Vector3& p, int threads)
 {
-  const auto parts = parallelParts<FoundPlace>(mesh.faceCount(), kPlaceChunk, threads,
+  const auto parts = parallelParts<FoundPlace>(mesh.faceCount(), kLightChunk, threads,
     [&](Index begin, Index end, FoundPlace& best)
     {
       for (Index f = begin; f < end; ++f)

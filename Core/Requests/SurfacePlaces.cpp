@@ -147,13 +147,12 @@ void SurfacePlaces::makeTriangleTree() const
 
 Index SurfacePlaces::nearestOfAll(const Vector3& p) const
 {
-  constexpr std::size_t kPlacesChunk = 1 << 15;
   struct Found
   {
     double squared = std::numeric_limits<double>::infinity();
     Index triangle = kInvalidIndex;
   };
-  const auto parts = parallelParts<Found>(triangleCount(), kPlacesChunk, threads_,
+  const auto parts = parallelParts<Found>(triangleCount(), kLightChunk, threads_,
     [&](Index begin, Index end, Found& best)
     {
       for (Index i = begin; i < end; ++i)

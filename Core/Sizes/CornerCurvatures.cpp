@@ -12,7 +12,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kFaceChunk = 4096;
 /// Of the barycentric coordinate that is 0 on a side.
 constexpr double kOnSide = 1e-6;
 
@@ -68,7 +67,7 @@ CornerCurvatures cornerCurvatures(const PreparedSurface& surface, int threads)
   const Mesh& mesh = surface.mesh;
   result.atCorner.resize(mesh.halfEdgeCount());
   result.along.assign(mesh.halfEdgeCount(), kNotKnown);
-  parallelForEach<Index>(mesh.faceCount(), kFaceChunk, threads,
+  parallelForEach<Index>(mesh.faceCount(), kMediumChunk, threads,
     [&](Index f)
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)

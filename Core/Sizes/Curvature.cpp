@@ -22,7 +22,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kPatchChunk = 1024;
 /// A curve that turns more at a vertex has a corner there, which is an end of edges whatever their length is.
 constexpr double kCornerTurn = 40 * kPi / 180;
 
@@ -36,7 +35,7 @@ Vector3 areaVector(const Mesh& mesh, Index f)
 std::vector<Cell> cellsOf(const Mesh& mesh, double side, int threads)
 {
   std::vector<Cell> cells(mesh.faceCount());
-  parallelForEach<Index>(cells.size(), kPatchChunk, threads,
+  parallelForEach<Index>(cells.size(), kHeavyChunk, threads,
     [&](Index f)
     {
       const Vector3 p = mesh.middleOfFace(f) / side;
@@ -90,7 +89,7 @@ SurfacePatch measurePatch(const Mesh& mesh, const Index* begin, const Index* end
 void findNeighbours(const Mesh& mesh, const Grouped<>& faces, SurfacePatches& result, int threads)
 {
   std::vector<std::vector<Index>> neighbours(result.patches.size());
-  parallelForEach<Index>(result.patches.size(), kPatchChunk, threads,
+  parallelForEach<Index>(result.patches.size(), kHeavyChunk, threads,
     [&](Index p)
     {
       std::vector<Index>& mine = neighbours[p];
@@ -201,7 +200,7 @@ std::vector<Bend> bendsOf(const Mesh& mesh, const SurfacePatches& patches, int t
   const Grouped<> faces = facesOfPatches(patches.patchOf, patches.patches.size());
   const CurveTurns turns(mesh);
   std::vector<Bend> bends(patches.patches.size());
-  parallelForEach<Index>(bends.size(), kPatchChunk, threads,
+  parallelForEach<Index>(bends.size(), kHeavyChunk, threads,
     [&](Index p)
     {
       for (const Index* f = faces.begin(p); f != faces.end(p); ++f)
@@ -272,7 +271,7 @@ SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
     "patches of a surface: the side of a cell must be positive and finite.");
   const std::vector<Cell> cells = cellsOf(mesh, cell, threads);
   DisjointSets sets(mesh.faceCount(), threads);
-  parallelForEach<Index>(mesh.faceCount(), kPatchChunk, threads,
+  parallelForEach<Index>(mesh.faceCount(), kHeavyChunk, threads,
     [&](Index f)
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
@@ -294,7 +293,7 @@ SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
   }
   result.patches.resize(count);
   const Grouped<> faces = facesOfPatches(result.patchOf, count);
-  parallelForEach<Index>(count, kPatchChunk, threads,
+  parallelForEach<Index>(count, kHeavyChunk, threads,
     [&](Index p) { result.patches[p] = measurePatch(mesh, faces.begin(p), faces.end(p)); });
   findNeighbours(mesh, faces, result, threads);
   return result;
@@ -305,7 +304,7 @@ std::vector<PatchCurvature> patchCurvatures(
 {
   const std::vector<Bend> bends = bendsOf(mesh, patches, threads);
   std::vector<PatchCurvature> result(bends.size());
-  parallelFor(result.size(), kPatchChunk, threads,
+  parallelFor(result.size(), kHeavyChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<Index> near;

@@ -18,8 +18,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kRayChunk = 256;
-constexpr std::size_t kSheetChunk = 4096;
 /// Faces in a leaf, and children of a node.
 constexpr Index kBranches = 8;
 const double kLeastOpposition = std::cos(kPi / 4);
@@ -91,7 +89,7 @@ private:
   void makeLevel(std::size_t children, int threads, const BoxOf& boxOf)
   {
     std::vector<Eigen::AlignedBox3f> level((children + kBranches - 1) / kBranches);
-    parallelForEach(level.size(), kSheetChunk, threads,
+    parallelForEach(level.size(), kMediumChunk, threads,
       [&](std::size_t i)
       {
         const std::size_t last = std::min(children, (i + 1) * kBranches);
@@ -179,7 +177,7 @@ std::vector<float> distancesToOpposite(
 {
   const SheetTree tree(mesh, threads);
   std::vector<float> single(patches.patches.size(), std::numeric_limits<float>::infinity());
-  parallelForEach(single.size(), kRayChunk, threads,
+  parallelForEach(single.size(), kHeavyChunk, threads,
     [&](std::size_t i)
     {
       if (!patches.patches[i].normal.isZero(0))
@@ -188,7 +186,7 @@ std::vector<float> distancesToOpposite(
       }
     });
   std::vector<float> result(single.size());
-  parallelFor(single.size(), kRayChunk, threads,
+  parallelFor(single.size(), kHeavyChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<float> values;

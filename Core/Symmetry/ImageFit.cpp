@@ -18,7 +18,6 @@ namespace
 /// How often moves are evened out before points go to the nearest place again: first the surface is followed as a
 /// whole, then in its detail.
 constexpr std::array<int, 8> kEvenings{ 64, 32, 16, 8, 4, 2, 1, 1 };
-constexpr std::size_t kFitChunk = 256;
 
 /// Edges of the boundary, or features inside.
 TriangleList linesOf(const Mesh& mesh, bool boundary)
@@ -126,7 +125,7 @@ private:
   {
     std::vector<Vector3> places(count_);
     parallelForEach(
-      count_, kFitChunk, threads_, [&](std::size_t i) { places[i] = nearestPlace(i); });
+      count_, kHeavyChunk, threads_, [&](std::size_t i) { places[i] = nearestPlace(i); });
     return places;
   }
 
@@ -174,13 +173,13 @@ private:
     fit.images.resize(count_);
     fit.quadPolygons.resize(quads_.quads.size() - copied_.partQuads);
     const PreparedSurface& surface = whole_.surface;
-    parallelForEach(count_, kFitChunk, threads_,
+    parallelForEach(count_, kHeavyChunk, threads_,
       [&](std::size_t i)
       {
         const auto at = whole_.nearestFace(quads_.points[first_ + i], normals_[first_ + i]);
         fit.images[i] = surface.locate(at.triangle, at.weights);
       });
-    parallelForEach(fit.quadPolygons.size(), kFitChunk, threads_,
+    parallelForEach(fit.quadPolygons.size(), kHeavyChunk, threads_,
       [&](std::size_t q)
       {
         const std::array<Index, 4>& quad = quads_.quads[copied_.partQuads + q];

@@ -22,7 +22,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kAskChunk = 256;
 /// Guides of both sides that differ by more contradict each other.
 const double kGuidesAgree = radians(10);
 /// Of a point on the part's border beyond its quads: one of valence n + 2 has n quads there.
@@ -149,7 +148,7 @@ std::string askGuides(const PartTask& task, SurfacePart& part)
     contradicts[t] = differs ? 1 : 0;
     return own.isFree() ? image : own;
   };
-  parallelForEach(count, kAskChunk, task.threads,
+  parallelForEach(count, kHeavyChunk, task.threads,
     [&](std::size_t t)
     {
       const Guide guide = guideAt(t);
@@ -376,7 +375,7 @@ void askSizes(const PartTask& task, SurfacePart& part)
   }
   std::vector<float>& sizing = part.input.sizing;
   sizing.assign(cornerOf.size(), 0);
-  parallelForEach(sizing.size(), kAskChunk, task.threads,
+  parallelForEach(sizing.size(), kHeavyChunk, task.threads,
     [&](std::size_t i)
     {
       const Index corner = cornerOf[i];

@@ -28,7 +28,6 @@ constexpr std::size_t kMostPoints = 20000; ///< of the surface, for the maximum
 /// Steps go on while they make the deviation less by this share, or it is rounding.
 constexpr double kStillBetter = 1e-3;
 constexpr double kMostTilt = 0.3; ///< of the direction, radians a step
-constexpr std::size_t kSampleChunk = 64;
 /// Deviations that differ by less than this, over the size of the surface, are equal.
 constexpr double kEqual = 1e-9;
 
@@ -211,7 +210,7 @@ Places nearestImages(const NearestTriangle& surface, const Isometry& isometry,
   const std::vector<Vector3>& samples, int threads)
 {
   Places places(samples.size());
-  parallelForEach(samples.size(), kSampleChunk, threads,
+  parallelForEach(samples.size(), kHeavyChunk, threads,
     [&](std::size_t i) { places[i] = *surface.at(isometry.image(samples[i])); });
   return places;
 }

@@ -12,18 +12,10 @@
 
 namespace quadrille
 {
-namespace
-{
-
-/// Faces of a chunk of the pass over the mesh; their uv fit a second level cache.
-constexpr std::size_t kMendChunk = 1 << 14;
-
-} // namespace
-
 std::vector<Index> DefectSearch::find(int threads) const
 {
   const std::vector<int> turns = countTurns(threads);
-  return parallelSelect(mesh_.faceCount(), kMendChunk, threads,
+  return parallelSelect(mesh_.faceCount(), kMediumChunk, threads,
     [&](Index f)
     {
       bool defect = !isPositive(f);
@@ -43,7 +35,7 @@ std::array<std::int8_t, 3> DefectSearch::enteredBy(Index f) const
 std::vector<int> DefectSearch::countTurns(int threads) const
 {
   std::vector<std::int8_t> entered(mesh_.halfEdgeCount());
-  parallelForEach(mesh_.faceCount(), kMendChunk, threads,
+  parallelForEach(mesh_.faceCount(), kMediumChunk, threads,
     [&](std::size_t f)
     {
       const std::array<std::int8_t, 3> corners = enteredBy(static_cast<Index>(f));

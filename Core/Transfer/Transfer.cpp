@@ -20,9 +20,6 @@ namespace quadrille
 namespace
 {
 
-/// Faces of a chunk of the passes over the mesh; their uv fit a second level cache.
-constexpr std::size_t kCountChunk = 1 << 14;
-
 void checkFaces(const Level& level, Index fineFaces)
 {
   refuseIf(level.fineFace.size() != level.mesh.faceCount(), "A level of ", level.mesh.faceCount(),
@@ -71,7 +68,7 @@ void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log)
 std::size_t countNotPositive(const std::vector<FixedVec2>& uv, int threads)
 {
   const std::size_t faces = uv.size() / 3;
-  return parallelCount(faces, kCountChunk, threads,
+  return parallelCount(faces, kMediumChunk, threads,
     [&](std::size_t f) { return !(determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) > 0); });
 }
 

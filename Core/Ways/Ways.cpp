@@ -263,9 +263,8 @@ std::vector<SourceLocation> QuadsMade::pointSources(int threads) const
   {
     return symmetry ? symmetry->pointSources : sourcesOfPoints(*thinning, quads);
   }
-  constexpr std::size_t kSourceChunk = 1 << 13;
   std::vector<SourceLocation> sources(quads.points.size());
-  parallelForEach(sources.size(), kSourceChunk, threads,
+  parallelForEach(sources.size(), kMediumChunk, threads,
     [&](std::size_t p)
     { sources[p] = remeshed.surface.locate(quads.sourceFace[p], quads.sourceWeights[p]); });
   return sources;
