@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 namespace quadrille
@@ -246,7 +245,7 @@ void JointChains::addLoop(const FineLoop& fine, const std::vector<std::pair<doub
   }
   for (Stop& stop : stops)
   {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       const double gap = std::abs(points[i].first - stop.arc);

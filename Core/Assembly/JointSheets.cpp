@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
@@ -411,7 +410,7 @@ private:
 
   void moveApart()
   {
-    Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    Vector3 low = Vector3::Constant(kInfinity), high = -low;
     for (const Vector3& p : sheets_.input.points)
     {
       low = low.cwiseMin(p);
@@ -449,7 +448,7 @@ private:
 Vector3 JointSheets::movedBack(const Vector3& place) const
 {
   Vector3 best = place;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const Vector3& moved : offset)
   {
     const double distance = (place - moved - centre).cwiseAbs().maxCoeff();

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 namespace quadrille
@@ -361,7 +360,7 @@ public:
   std::size_t to(const Vector3& place) const
   {
     Index nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (Index f = 0; f < mesh_.faceCount(); ++f)
     {
       pollNowAndThen(f);

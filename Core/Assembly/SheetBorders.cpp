@@ -64,7 +64,7 @@ SheetBorders::OnLoop SheetBorders::nearestOnLoops(Index sheet, const Vector3& p)
 std::optional<SurfacePoint> SheetBorders::nearestOnFeatures(Index sheet, const Vector3& p) const
 {
   std::optional<CurvePoint> best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
     if (mesh_.isBoundary(h) || !mesh_.isFeature(h) || h > mesh_.twin[h] ||

@@ -9,7 +9,6 @@
 #include "Quads/SurfaceWalk.h"
 
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -47,7 +46,7 @@ public:
     std::size_t loop = 0;
     CurvePoint at;
     double arc = 0;
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = kInfinity;
   };
 
   OnLoop nearestOnLoops(Index sheet, const Vector3& p) const;

@@ -19,6 +19,8 @@ using Index = std::uint32_t;
 /// "No such element": the twin of a boundary half-edge, a removed face, ...
 constexpr Index kInvalidIndex = std::numeric_limits<Index>::max();
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 

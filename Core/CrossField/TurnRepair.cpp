@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -177,8 +176,7 @@ public:
   bool move(const Flags& from, const Flags& to)
   {
     using Entry = std::pair<double, Index>;
-    constexpr double kUnreached = std::numeric_limits<double>::infinity();
-    std::vector<double> distance(result_.turns.size(), kUnreached);
+    std::vector<double> distance(result_.turns.size(), kInfinity);
     std::vector<std::optional<Link>> entry(result_.turns.size());
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
     for (Index i = 0; i < from.size(); ++i)

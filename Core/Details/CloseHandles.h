@@ -6,7 +6,6 @@
 
 #include "Mesh/Surface.h"
 
-#include <limits>
 #include <vector>
 
 namespace quadrille
@@ -27,7 +26,7 @@ constexpr double kGirthOfLimb = 4.5;
 /// makes two components of one.
 /// opening: see removeStub. threads: 0: all.
 std::vector<std::size_t> closeHandles(PreparedSurface& surface,
-  const std::vector<std::vector<Index>>& places, double bound,
-  double opening = std::numeric_limits<double>::infinity(), int threads = 1);
+  const std::vector<std::vector<Index>>& places, double bound, double opening = kInfinity,
+  int threads = 1);
 
 } // namespace quadrille

@@ -31,7 +31,6 @@ constexpr double kNoMore = 0.05;
 constexpr double kLeastFacing = 0.1;
 /// Vertices of the largest disc that is looked at; stubs are shorter than quads, or thin.
 constexpr std::size_t kMostVertices = 20000;
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A fan over the edge of a disc.
 struct MouthFan
@@ -56,20 +55,20 @@ public:
   /// along a tube of long triangles it zigzags between two rings of vertices until it has all of the next one.
   bool run()
   {
-    double openUntil = kNever;
+    double openUntil = kInfinity;
     while (!reached_.empty() && inside_.size() < kMostVertices && reached_.top().first <= openUntil)
     {
       const auto [distance, v] = reached_.top();
       reached_.pop();
       if (inside_.count(v) == 0 && !enter(v))
       {
-        return openUntil < kNever;
+        return openUntil < kInfinity;
       }
       if (length_ <= open_)
       {
-        openUntil = kNever;
+        openUntil = kInfinity;
       }
-      else if (openUntil == kNever)
+      else if (openUntil == kInfinity)
       {
         openUntil = distance + longestOfEdge();
       }

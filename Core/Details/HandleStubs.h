@@ -5,8 +5,6 @@
 
 #include "Mesh/Surface.h"
 
-#include <limits>
-
 namespace quadrille
 {
 
@@ -19,7 +17,6 @@ namespace quadrille
 /// until orderSurface.
 /// A disc whose edge is longer than `opening`, in units of the mesh, has opened whatever the girth is: what is that
 /// thick is no stub but a limb that quads show.
-bool removeStub(PreparedSurface& surface, Index h, double girth,
-  double opening = std::numeric_limits<double>::infinity());
+bool removeStub(PreparedSurface& surface, Index h, double girth, double opening = kInfinity);
 
 } // namespace quadrille

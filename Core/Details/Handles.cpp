@@ -10,7 +10,6 @@
 #include "Mesh/Topology.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace quadrille
 {
@@ -80,7 +79,7 @@ std::optional<LoopSearch::Loop> tightenedLoop(LoopSearch& search)
     bool shorter = false;
     for (const Index start : starts)
     {
-      const double bound = best ? best->length : std::numeric_limits<double>::infinity();
+      const double bound = best ? best->length : kInfinity;
       std::optional<LoopSearch::Loop> loop = search.shortest(start, bound);
       if (loop)
       {

@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace quadrille
@@ -39,8 +38,8 @@ struct SmallComponents
 };
 /// For quads of edge length s > 0; mostQuads: only those with less area than so many quads. Linear, and next to nothing
 /// for a large connected surface. threads: 0: all.
-SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeLength,
-  double mostQuads = std::numeric_limits<double>::infinity(), int threads = 1);
+SmallComponents findSmallComponents(
+  const PreparedSurface& surface, double edgeLength, double mostQuads = kInfinity, int threads = 1);
 
 /// Removes the faces that are marked (#F), which are so many whole components and not all. Area, components and hash
 /// follow, and requests at their vertices go.

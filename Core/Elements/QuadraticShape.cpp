@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace quadrille
 {
@@ -103,10 +102,10 @@ double QuadraticShape::leastDeterminant(const QuadraticNodes& x) const
   const double length = area.norm();
   if (!(length > 0))
   {
-    return -std::numeric_limits<double>::infinity();
+    return -kInfinity;
   }
   const Vector3 normal = area / length;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const ShapeDerivatives& d : derivatives_)
   {
     Vector3 along = Vector3::Zero(), across = Vector3::Zero();

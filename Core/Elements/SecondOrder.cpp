@@ -12,7 +12,6 @@
 #include "Quads/QuadShape.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -164,7 +163,7 @@ protected:
     {
       return kHalfCircle * length(static_cast<Index>(n));
     }
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (const Index edge : nodes_.edgesOfQuad[quadOfCentre(n)])
     {
       least = std::min(least, length(edge));
@@ -422,7 +421,7 @@ private:
   {
     const double wanted = leastWanted(q);
     std::optional<NodeMove> best;
-    double most = -std::numeric_limits<double>::infinity();
+    double most = -kInfinity;
     for (MoveLevel level = kAlong; level <= kStraight; ++level)
     {
       for (std::size_t slot = 4; slot < count_; ++slot)

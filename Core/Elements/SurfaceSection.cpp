@@ -162,7 +162,7 @@ private:
   {
     const MiddlePlane middle(start_, end_);
     std::optional<SurfacePoint> best;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     SurfacePoint last = from_;
     Vector3 here = start_;
     const auto look = [&](Index f, const SurfacePoint& next)
@@ -415,7 +415,7 @@ private:
   std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>,
     std::greater<>>
     queue_;
-  double best_ = std::numeric_limits<double>::infinity(); ///< cost of the best way
+  double best_ = kInfinity; ///< cost of the best way
   Index lastVertex_ = kInvalidIndex;
   CurvePoint lastFrom_, lastTo_; ///< its last segment
 };
@@ -509,7 +509,7 @@ CurvePoint CurveChain::middle(const Mesh& mesh) const
   const MiddlePlane plane(
     positionOf(mesh, points.front().onSurface()), positionOf(mesh, points.back().onSurface()));
   CurvePoint best = points.front();
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 0; i < points.size(); i += 2)
   {
     const CurvePoint& a = points[i];
@@ -530,7 +530,7 @@ CurvePoint CurveChain::middle(const Mesh& mesh) const
 CurvePoint CurveChain::nearest(const Mesh& mesh, const Vector3& p) const
 {
   CurvePoint best = points.front();
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 0; i < points.size(); i += 2)
   {
     const auto [low, high] = std::minmax(points[i].t, points[i + 1].t);

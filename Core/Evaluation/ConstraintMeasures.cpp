@@ -234,7 +234,7 @@ ConstraintMeasure ConstraintMeasures::cleared(const Vector3& place)
   {
     return word;
   }
-  word.deviation = std::numeric_limits<double>::infinity();
+  word.deviation = kInfinity;
   for (const QuadLine& line : mesh_.lines)
   {
     if (!line.boundary)

@@ -6,7 +6,6 @@
 #include "Base/Refuse.h"
 
 #include <functional>
-#include <limits>
 #include <queue>
 
 namespace quadrille
@@ -128,8 +127,7 @@ std::vector<double> GeodesicGraph::distances(Index source, const std::vector<Ind
   const auto check = [&](Index v)
   { refuseIf(v >= vertices, "distances: there is no vertex ", v, " in a mesh of ", vertices); };
   check(source);
-  constexpr double kUnreached = std::numeric_limits<double>::infinity();
-  std::vector<double> distance(vertices, kUnreached);
+  std::vector<double> distance(vertices, kInfinity);
   std::vector<std::uint8_t> wanted(vertices, 0);
   std::size_t open = 0;
   for (const Index v : targets)

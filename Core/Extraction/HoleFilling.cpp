@@ -6,7 +6,6 @@
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <set>
 
@@ -16,7 +15,6 @@ namespace
 {
 
 constexpr std::size_t kLongestLoop = 20;
-constexpr double kImpossible = std::numeric_limits<double>::infinity();
 constexpr double kInverted = 10; ///< cost of a quad that is not convex; a good one costs 0
 
 using Edge = std::pair<Index, Index>;
@@ -49,7 +47,7 @@ public:
         solve(i, i + length);
       }
     }
-    if (cost_[size_ - 1] == kImpossible)
+    if (cost_[size_ - 1] == kInfinity)
     {
       return std::nullopt;
     }
@@ -83,7 +81,7 @@ private:
       {
         if (polygon_[corners[a]] == polygon_[corners[b]])
         {
-          return kImpossible;
+          return kInfinity;
         }
       }
     }
@@ -94,13 +92,13 @@ private:
 
   void solve(std::size_t i, std::size_t j)
   {
-    double best = kImpossible;
+    double best = kInfinity;
     for (std::size_t k = i + 1; k < j && isChordFree(i, j); k += 2)
     {
       for (std::size_t l = k + 1; l < j; l += 2)
       {
         const double parts = cost(i, k) + cost(k, l) + cost(l, j);
-        const double whole = parts == kImpossible ? parts : parts + quadCost({ i, k, l, j });
+        const double whole = parts == kInfinity ? parts : parts + quadCost({ i, k, l, j });
         if (whole < best)
         {
           best = whole;

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <unordered_map>
 #include <vector>
@@ -312,7 +311,7 @@ private:
     }
     sortUnique(sides);
     Index best = kInvalidIndex;
-    double bluntest = std::numeric_limits<double>::infinity();
+    double bluntest = kInfinity;
     for (const Index c : sides)
     {
       const bool isEnd = chains_[c].length < kShortestSide * longest;
@@ -494,7 +493,7 @@ std::vector<ClearedFeature> clearFeatures(
   for (const Vector3& place : places)
   {
     ClearedFeature& found = cleared.emplace_back();
-    found.distance = std::numeric_limits<double>::infinity();
+    found.distance = kInfinity;
     const Chain* nearest = nullptr;
     for (const Chain& chain : chains)
     {

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -222,7 +221,7 @@ private:
   std::pair<Index, double> exitOf(
     Index h, const Vector3& place, const Vector3& way, const Vector3& normal) const
   {
-    std::pair<Index, double> exit{ kInvalidIndex, std::numeric_limits<double>::infinity() };
+    std::pair<Index, double> exit{ kInvalidIndex, kInfinity };
     for (const Index g : { Mesh::next(h), Mesh::previous(h) })
     {
       const Vector3 inward = inwardOf(g, normal);

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -156,7 +155,7 @@ private:
     const double longer = misfit(curve.length, curve.edges + 1) - now;
     const double shorter = curve.edges > least_[c] && !hasFewer(curve, 4)
       ? misfit(curve.length, curve.edges - 1) - now
-      : std::numeric_limits<double>::infinity();
+      : kInfinity;
     return { kCostOfStep + std::max(0.0, std::min(longer, shorter)), shorter < longer };
   }
 
@@ -187,7 +186,7 @@ private:
   /// The curves between a face and the nearest other odd one; empty where there is none.
   std::vector<std::size_t> wayToOdd(Index from) const
   {
-    constexpr double none = std::numeric_limits<double>::infinity();
+    constexpr double none = kInfinity;
     std::map<Index, std::pair<double, std::size_t>> best{ { from, { 0.0, curves_.size() } } };
     std::set<std::pair<double, Index>> queue{ { 0.0, from } };
     std::set<Index> done;

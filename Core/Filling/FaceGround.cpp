@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace quadrille
@@ -178,7 +177,7 @@ std::vector<FaceGround::FinePin> FaceGround::finePins() const
 void FaceGround::measureSizes()
 {
   const std::vector<FinePin> pins = finePins();
-  double finest = std::numeric_limits<double>::infinity();
+  double finest = kInfinity;
   for (const FinePin& pin : pins)
   {
     finest = std::min(finest, pin.size);

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace quadrille
@@ -82,7 +81,7 @@ Fit fitOf(const Mesh& mesh, const std::vector<Vector2>& uv, Index h, int rotatio
 Fit bestFit(const Mesh& mesh, const std::vector<Vector2>& uv, Index h, double ambiguity)
 {
   std::array<Fit, 4> fits;
-  double residual = std::numeric_limits<double>::infinity();
+  double residual = kInfinity;
   for (int r = 0; r < 4; ++r)
   {
     fits[static_cast<std::size_t>(r)] = fitOf(mesh, uv, h, r);

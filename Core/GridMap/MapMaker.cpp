@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -270,7 +269,7 @@ private:
   void chooseScale()
   {
     double wanted = besideBlocks(components_, options_.targetQuads);
-    double bestDeviation = std::numeric_limits<double>::infinity();
+    double bestDeviation = kInfinity;
     int kept = 0;
     for (int scaling = 0; scaling < kMaximumScalings; ++scaling)
     {

@@ -17,7 +17,6 @@
 #include "Requests/Guides.h"
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -31,10 +30,7 @@ struct RelaxOptions
   /// It ends where a step lowers the energy by less than this fraction.
   double leastGain = 1e-3;
   /// Bytes that may be taken; where more are needed nothing is done and the status says so.
-  double maximumBytes = std::numeric_limits<double>::infinity();
-  /// The same for the multiplications of a factorization: by default about 40 s on one thread, a surface of about two
-  /// million triangles.
-  double maximumOperations = 2e11;
+  double maximumBytes = kInfinity;
   /// Directions that the isolines should keep; empty or #F. In a region of them it is one family that keeps them.
   std::vector<Guide> guides;
   /// Empty or #H flags of boundary half-edges: in the map they move half a quad into the surface, so that an isoline

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace quadrille
@@ -346,7 +345,7 @@ double RelaxedTriangles::energy(Index f, const Corners& p) const
   const double d = j[0] * j[3] - j[1] * j[2];
   if (!(d > 0))
   {
-    return std::numeric_limits<double>::infinity();
+    return kInfinity;
   }
   double value = j.squaredNorm() * (1 + 1 / (d * d));
   if (!directions_.empty() && directions_[f].strength > 0)

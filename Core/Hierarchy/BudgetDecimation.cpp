@@ -17,7 +17,6 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
-#include <limits>
 #include <optional>
 #include <queue>
 
@@ -38,8 +37,7 @@ constexpr double kSizeWeight = 3.4641016151377544;
 
 /// Costs in radians up to which the stages of guards are gone through before the next ceiling. The strictest guards
 /// alone would first take what costs most among the vertices that they allow.
-constexpr std::array<double, 5> kCeilings{ 0.25, 0.5, 1, 2,
-  std::numeric_limits<double>::infinity() };
+constexpr std::array<double, 5> kCeilings{ 0.25, 0.5, 1, 2, kInfinity };
 /// Where no budget is given: coarse vertices for each quad, about, by which costs are scaled before it is known.
 constexpr double kVerticesPerQuad = 0.4;
 

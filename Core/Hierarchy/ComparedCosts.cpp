@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <limits>
 
 namespace quadrille
 {
@@ -36,7 +35,7 @@ double ComparedCost::of(const VertexRemoval& removal, double shortestEdge) const
   {
     return shortestEdge;
   }
-  double cost = std::numeric_limits<double>::infinity();
+  double cost = kInfinity;
   for (int i = 0; i < removal.ringSize(); ++i)
   {
     const Index w = removal.ringVertex(i);

@@ -18,7 +18,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A face flatter than this has no reliable normal.
 constexpr double kSliverQuality = 0.02;
 /// Less than the harmonic index of any triangle, which is 1 for an equilateral one.
@@ -377,7 +376,7 @@ double VertexRemoval::constraintCost(int a, int b, int c, const RemovalGuards& g
   {
     return 0;
   }
-  return guards.allowConstrainedFaces || constrainedFaces_ ? kConstrainedFaceCost : kInfinity;
+  return constrainedFaces_ ? kConstrainedFaceCost : kInfinity;
 }
 
 bool VertexRemoval::forbidExistingDiagonals()

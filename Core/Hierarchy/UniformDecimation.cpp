@@ -194,7 +194,7 @@ void UniformDecimation::forget()
 /// Of those at candidates.
 double UniformDecimation::shortestEdge() const
 {
-  double shortest = std::numeric_limits<double>::infinity();
+  double shortest = kInfinity;
   for (Index h = 0; h < 3 * mesh_.faceCount(); ++h)
   {
     const Index a = mesh_.origin[h], b = mesh_.target(h);

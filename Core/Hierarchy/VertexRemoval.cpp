@@ -15,8 +15,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// A weight as the log has it, in units of 2^-32.
 std::uint32_t fixedWeight(double weight)
 {

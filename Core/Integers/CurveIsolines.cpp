@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -78,10 +77,7 @@ CurveEnd endNear(const Mesh& mesh, const CrossField& field, const Vector3& p, do
   const Index curve =
     nearestFlagged(mesh, constrainedVertices(mesh), p, kReachOfCurve * edgeLength);
   const auto distance = [&](Index v)
-  {
-    return v == kInvalidIndex ? std::numeric_limits<double>::infinity()
-                              : (mesh.position[v] - p).norm();
-  };
+  { return v == kInvalidIndex ? kInfinity : (mesh.position[v] - p).norm(); };
   // An irregular vertex that lies a little farther than the curve is what was meant.
   const bool point = distance(irregular) <= distance(curve) + edgeLength;
   const Index v = point ? irregular : curve;
@@ -288,11 +284,11 @@ std::optional<UvDirection> closedLine(const UvMesh& map, const std::vector<std::
   const Mesh& mesh, const Isoline& line, std::int64_t length)
 {
   std::optional<UvDirection> best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   const std::vector<Vector3> way = placesOf(mesh, line);
   for (Index v = 0; v < integer.size(); ++v)
   {
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = kInfinity;
     for (const Vector3& p : way)
     {
       distance = std::min(distance, (mesh.position[v] - p).norm());
@@ -433,7 +429,7 @@ std::optional<Isoline> straightWay(const Mesh& mesh, const CrossField& field,
   const Sight sight(map, ends.from, ends.to, kMostOverStraight * quads + kReachOfIrregular);
   const std::vector<Vector3> samples = sampleCurve(curve, edgeLength);
   std::optional<Isoline> best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const Sight::Line& line : sight.lines())
   {
     const Vector2 vector = toDouble(line.vector);

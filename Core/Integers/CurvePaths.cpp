@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <utility>
 
@@ -34,7 +33,7 @@ double meanEdge(const Mesh& mesh)
 Index nearestFace(const Mesh& mesh, const Vector3& p)
 {
   Index best = 0;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
     const double distance = distanceToFace(mesh, f, p);
@@ -85,7 +84,7 @@ public:
   bool find(const std::vector<Index>& from, const std::vector<Index>& to, FacePath& path)
   {
     using Entry = std::pair<double, Index>;
-    std::vector<double> cost(mesh_.faceCount(), std::numeric_limits<double>::infinity());
+    std::vector<double> cost(mesh_.faceCount(), kInfinity);
     std::vector<Index> entered(mesh_.faceCount(), kInvalidIndex);
     std::vector<std::uint8_t> isGoal(mesh_.faceCount(), 0);
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -346,7 +345,7 @@ std::vector<Vector3> sampleCurve(const CurveRequest& curve, double spacing)
 
 double distanceToCurve(const std::vector<Vector3>& samples, const Vector3& p)
 {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 0; i + 1 < samples.size(); ++i)
   {
     least = std::min(least, distanceToSegment(p, samples[i], samples[i + 1]));

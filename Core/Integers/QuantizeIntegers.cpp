@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -109,7 +108,7 @@ void lengthenLoops(IntegerMap& map, StripSearch& search)
     std::vector<Strip> strips;
     for (const Index h : map.shortLoops())
     {
-      strips.push_back(search.through(h, map.along(h), std::numeric_limits<double>::infinity()));
+      strips.push_back(search.through(h, map.along(h), kInfinity));
     }
     std::stable_sort(
       strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.cost < b.cost; });

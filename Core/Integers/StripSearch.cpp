@@ -12,7 +12,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Makes the shorter of two equally cheap strips win.
 constexpr double kStepCost = 1e-6;
 /// Steps that an improving search may settle.

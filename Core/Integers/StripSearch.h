@@ -6,7 +6,6 @@
 #include "Integers/IntegerMap.h"
 
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,7 +22,7 @@ struct StripStep
 struct Strip
 {
   std::vector<StripStep> steps;
-  double cost = std::numeric_limits<double>::infinity();
+  double cost = kInfinity;
   bool found() const { return !steps.empty(); }
 };
 
@@ -72,7 +71,7 @@ public:
 private:
   struct End
   {
-    double cost = std::numeric_limits<double>::infinity();
+    double cost = kInfinity;
     Index state = kInvalidIndex; ///< last state of the path; kInvalidIndex: the path has none
     Index exit = kInvalidIndex;  ///< boundary half-edge that it leaves through
     FixedVec2 exitVector;

@@ -5,7 +5,6 @@
 
 #include "Mesh/Mesh.h"
 
-#include <limits>
 #include <vector>
 
 namespace quadrille
@@ -32,7 +31,7 @@ public:
   Index nearest(const Vector3& place) const
   {
     Index best = kInvalidIndex;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (const Index v : vertices_)
     {
       const double distance = (mesh_.position[v] - place).squaredNorm();

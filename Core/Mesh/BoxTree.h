@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace quadrille
@@ -37,8 +36,8 @@ public:
   /// is none within a distance. What squaredDistance says must not be less than the distance to the item's box;
   /// infinite: the item does not count.
   template <class SquaredDistance>
-  Index nearest(const Vector3& p, const SquaredDistance& squaredDistance,
-    double within = std::numeric_limits<double>::infinity()) const
+  Index nearest(
+    const Vector3& p, const SquaredDistance& squaredDistance, double within = kInfinity) const
   {
     Nearest best;
     best.squared = within * within;
@@ -64,11 +63,10 @@ public:
 private:
   /// Boxes, and items, below one box.
   static constexpr std::size_t kBoxChildren = 4;
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
 
   struct Nearest
   {
-    double squared = kFar;
+    double squared = kInfinity;
     Index item = kInvalidIndex;
   };
 
@@ -82,7 +80,8 @@ private:
       for (std::size_t i = begin; i < std::min(begin + kBoxChildren, items_.size()); ++i)
       {
         const double squared = squaredDistance(items_[i]);
-        const bool isFirst = squared == best.squared && items_[i] < best.item && squared < kFar;
+        const bool isFirst =
+          squared == best.squared && items_[i] < best.item && squared < kInfinity;
         if (squared < best.squared || isFirst)
         {
           best = { squared, items_[i] };

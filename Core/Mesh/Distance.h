@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace quadrille
 {
@@ -35,7 +34,7 @@ inline double distanceToFace(const Mesh& mesh, Index f, const Vector3& p)
 {
   const Vector3 normal = mesh.doubleAreaNormal(f);
   bool inside = normal.squaredNorm() > 0;
-  double toSides = std::numeric_limits<double>::infinity();
+  double toSides = kInfinity;
   for (Index h = 3 * f; h < 3 * f + 3; ++h)
   {
     const Vector3& a = mesh.position[mesh.origin[h]];

@@ -120,7 +120,7 @@ std::optional<NearestTriangle::Place> NearestTriangle::at(
     {
       const Corners corners = cornersOf(triangles_, t);
       return isFacing && !(wayOf(triangles_, corners, t).dot(facing) > 0)
-        ? std::numeric_limits<double>::infinity()
+        ? kInfinity
         : (placeOn(corners, t, p).point - p).squaredNorm();
     },
     within);

@@ -8,7 +8,6 @@
 #include "Mesh/Mesh.h"
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -41,8 +40,8 @@ public:
   /// None where there is no triangle within the distance. facing: only triangles whose normal is less than a right
   /// angle from it count, such that places on a thin wall do not find the other side; of segments (a, b, a) those that
   /// lead this way from a to b. Zero: all.
-  std::optional<Place> at(const Vector3& p, const Vector3& facing = Vector3::Zero(),
-    double within = std::numeric_limits<double>::infinity()) const;
+  std::optional<Place> at(
+    const Vector3& p, const Vector3& facing = Vector3::Zero(), double within = kInfinity) const;
   /// All that are no farther away, ascending.
   std::vector<Index> within(const Vector3& p, double distance) const;
   /// Of one triangle.

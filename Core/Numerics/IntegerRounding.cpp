@@ -6,7 +6,6 @@
 #include "Base/Refuse.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace quadrille
@@ -62,7 +61,7 @@ private:
   Eigen::Index choose(Eigen::Index begin) const
   {
     Eigen::Index best = -1;
-    double bestDistance = std::numeric_limits<double>::infinity();
+    double bestDistance = kInfinity;
     for (Eigen::Index j = begin; j < x_.size(); ++j)
     {
       if (isLast(j) != (begin >= plain_))

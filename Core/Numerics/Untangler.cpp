@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace quadrille
@@ -49,7 +48,7 @@ struct TriangleEnergy
     const double c = chi(d);
     if (!(c > 0))
     {
-      return std::numeric_limits<double>::infinity();
+      return kInfinity;
     }
     return (j.squaredNorm() + lambda * (1 + d * d)) / c +
       mu * (j - Jacobian(1, 0, 0, 1)).squaredNorm();
@@ -135,13 +134,13 @@ private:
 /// NaN counts as the lowest of all.
 double Minimizer::minimumDeterminant(const std::vector<Jacobian>& jacobians) const
 {
-  double lowest = std::numeric_limits<double>::infinity();
+  double lowest = kInfinity;
   for (const Jacobian& j : jacobians)
   {
     const double d = determinantOf(j);
     if (!std::isfinite(d))
     {
-      return -std::numeric_limits<double>::infinity();
+      return -kInfinity;
     }
     lowest = std::min(lowest, d);
   }
@@ -190,7 +189,7 @@ double Minimizer::total(const std::vector<Jacobian>& jacobians) const
       sum += problem_.weight[t] * axis_.value(problem_.offAxis[t].dot(jacobians[t]));
     }
   }
-  return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+  return std::isfinite(sum) ? sum : kInfinity;
 }
 
 void Minimizer::assemble()
@@ -300,8 +299,7 @@ UntangleResult Minimizer::run()
     const double d = determinantOf(jacobians_[t]);
     if (!(d > 0))
     {
-      bad.emplace_back(
-        std::isnan(d) ? -std::numeric_limits<double>::infinity() : d, static_cast<Index>(t));
+      bad.emplace_back(std::isnan(d) ? -kInfinity : d, static_cast<Index>(t));
     }
   }
   std::sort(bad.begin(), bad.end());

@@ -43,7 +43,7 @@ struct UntangleOptions
   /// Steps that polish after every determinant has become positive; more follow until one lessens the energy by a
   /// smaller share than leastGain.
   int polishSteps = 8;
-  double leastGain = std::numeric_limits<double>::infinity();
+  double leastGain = kInfinity;
   /// Weight of the area term against the angle term.
   double areaWeight = 0.05;
   /// Weight of |J - 1|^2, which keeps the map rotated like the references; 0: rotations cost nothing.

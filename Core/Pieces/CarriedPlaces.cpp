@@ -96,7 +96,7 @@ struct PlaneTriangle
   {
     if (!(planeCross(corner[1] - corner[0], corner[2] - corner[0]) > 0))
     {
-      return -std::numeric_limits<double>::infinity();
+      return -kInfinity;
     }
     const std::array<double, 3> weights = weightsOf(p);
     return std::min({ weights[0], weights[1], weights[2] });
@@ -107,7 +107,7 @@ struct PlaneTriangle
 const PlaneTriangle* triangleOf(const std::vector<PlaneTriangle>& triangles, FlatPoint p)
 {
   const PlaneTriangle* best = nullptr;
-  double depth = -std::numeric_limits<double>::infinity();
+  double depth = -kInfinity;
   for (const PlaneTriangle& triangle : triangles)
   {
     const double ofThis = triangle.depthOf(p);

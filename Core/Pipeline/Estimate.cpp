@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <limits>
 #include <string>
 
 namespace quadrille
@@ -78,7 +77,7 @@ double freeMemory()
       return 1024 * kibibytes;
     }
   }
-  return std::numeric_limits<double>::infinity();
+  return kInfinity;
 }
 
 Status memoryStatus(

@@ -5,7 +5,6 @@
 
 #include "Pipeline/Attempt.h"
 
-#include <limits>
 #include <vector>
 
 namespace quadrille
@@ -27,7 +26,7 @@ bool mayResolve(const RemeshOptions& options);
 
 /// Whether the first plan had smaller quads round these short loops; true where there is none. most: how many times as
 /// many quads they may make, beside the bound that the plan has.
-bool resolvesLoops(const RunContext& run, const std::vector<HandleLoop>& loops,
-  double most = std::numeric_limits<double>::infinity());
+bool resolvesLoops(
+  const RunContext& run, const std::vector<HandleLoop>& loops, double most = kInfinity);
 
 } // namespace quadrille

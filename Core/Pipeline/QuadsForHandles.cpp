@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <sstream>
 
@@ -43,8 +42,8 @@ Status judgeHandles(const SizedSurface& sized, bool isCut, int threads, ResultSt
     return {};
   }
   const double quad = sized.edgeLength * sized.edgeLength;
-  const SmallComponents small = findSmallComponents(
-    *sized.surface, sized.edgeLength, std::numeric_limits<double>::infinity(), threads);
+  const SmallComponents small =
+    findSmallComponents(*sized.surface, sized.edgeLength, kInfinity, threads);
   const auto found = std::find_if(small.each.begin(), small.each.end(),
     [&](const SmallComponent& component)
     {

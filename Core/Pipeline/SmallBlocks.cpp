@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iomanip>
-#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -20,7 +19,6 @@ namespace
 
 /// Components with less area are left out where there are too many small ones.
 constexpr double kQuadsOfSpeck = 1;
-constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 
 /// What a sized surface has of components that are too small for a block of quads.
 struct StoredSmallComponents
@@ -67,7 +65,7 @@ void noteComponents(const SmallComponents& small, double edgeLength, const Text&
 StoredSmallComponents smallComponents(const SizedSurface& sized, int threads)
 {
   StoredSmallComponents found{ findSmallComponents(
-                                 *sized.surface, sized.edgeLength, kAnyNumber, threads),
+                                 *sized.surface, sized.edgeLength, kInfinity, threads),
     areaOverSizes(*sized.surface) };
   found.small.isSmall = {};
   return found;
@@ -84,7 +82,7 @@ std::string dropSmallComponents(
     return {};
   }
   SmallComponents small =
-    findSmallComponents(surface, sized.edgeLength, kAnyNumber, options.threads);
+    findSmallComponents(surface, sized.edgeLength, kInfinity, options.threads);
   const double smallest = options.smallestDetail;
   const bool areTooMany = small.quads > static_cast<double>(sized.targetQuads);
   if (!isAsked)

@@ -5,7 +5,6 @@
 #include "Mesh/Distance.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace quadrille
@@ -22,7 +21,7 @@ Index originInQuads(const QuadMesh& quads, Index h)
 
 double distanceToLoop(const std::vector<Vector3>& polyline, const Vector3& p)
 {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 0; i < polyline.size(); ++i)
   {
     least = std::min(least, distanceToSegment(p, polyline[i], polyline[(i + 1) % polyline.size()]));

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -97,7 +96,7 @@ public:
 
   struct EdgeLengths
   {
-    double shortest = std::numeric_limits<double>::infinity();
+    double shortest = kInfinity;
     double mean = 0;
   };
 

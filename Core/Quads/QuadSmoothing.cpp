@@ -9,7 +9,6 @@
 #include "Quads/QuadShape.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace quadrille
@@ -64,7 +63,7 @@ public:
 private:
   struct Quality
   {
-    double worst = std::numeric_limits<double>::infinity();
+    double worst = kInfinity;
     double sum = 0;
 
     bool betterThan(const Quality& other) const

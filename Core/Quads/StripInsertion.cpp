@@ -6,7 +6,6 @@
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <queue>
 #include <set>
@@ -67,7 +66,7 @@ class PathSearch
 public:
   PathSearch(const QuadMesh& mesh)
     : mesh_(mesh), topology_(analyzeQuads(mesh.quads, mesh.points.size())),
-      isLine_(4 * mesh.quads.size(), 0), cost_(4 * mesh.quads.size(), kUnreached),
+      isLine_(4 * mesh.quads.size(), 0), cost_(4 * mesh.quads.size(), kInfinity),
       before_(4 * mesh.quads.size(), kInvalidIndex), start_(4 * mesh.quads.size(), kInvalidIndex)
   {
     for (const Index h : halfEdgesOfLines(mesh))
@@ -101,7 +100,7 @@ public:
         reach(h, 1 + start->second, kInvalidIndex, from);
       }
     }
-    double least = kUnreached;
+    double least = kInfinity;
     Index last = kInvalidIndex;
     while (!queue_.empty() && queue_.top().first < least)
     {
@@ -138,8 +137,6 @@ public:
   }
 
 private:
-  static constexpr double kUnreached = std::numeric_limits<double>::infinity();
-
   void reach(Index h, double cost, Index before, Index start)
   {
     if (topology_.twin[h] != kInvalidIndex && isLine_[h] == 0 && cost < cost_[h])

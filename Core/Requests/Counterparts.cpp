@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace quadrille
 {
@@ -106,7 +105,7 @@ std::vector<ValenceRequest> counterparts(
     const std::array<std::pair<Vector3, int>, 3> corners{ { { middle + a, opposite },
       { middle + a + b, asked.valence }, { middle + b, opposite } } };
     std::vector<ValenceRequest> square;
-    double room = std::numeric_limits<double>::infinity();
+    double room = kInfinity;
     for (const auto& [place, valence] : corners)
     {
       const Index at = nearest(around.inside, place);

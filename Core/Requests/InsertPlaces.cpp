@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <string>
@@ -466,7 +465,7 @@ std::vector<SizeRequest> sizesThatCount(const std::vector<SizeRequest>& sizes,
 /// around, larger ones and smaller ones alike; where a larger one and a smaller one pass it is the smaller one.
 double sizeBeyond(const std::vector<SizeRequest>& sizes, const Vector3& p, double s)
 {
-  double larger = 1, most = std::numeric_limits<double>::infinity();
+  double larger = 1, most = kInfinity;
   for (const SizeRequest& asked : sizes)
   {
     const double change = kSizeGrowth * ((p - asked.place).norm() - asked.radius) / s;

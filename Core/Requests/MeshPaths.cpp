@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <queue>
 #include <utility>
@@ -53,7 +52,7 @@ class ReachedHalfEdges
 public:
   struct Reached
   {
-    double cost = std::numeric_limits<double>::infinity();
+    double cost = kInfinity;
     Index before = kInvalidIndex;
     bool isDone = false;
   };

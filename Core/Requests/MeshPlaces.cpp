@@ -6,7 +6,6 @@
 #include "Mesh/Distance.h"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -20,7 +19,7 @@ constexpr double kOnMesh = 1e-5;
 
 struct FoundPlace
 {
-  double squared = std::numeric_limits<double>::infinity();
+  double squared = kInfinity;
   MeshPlace place;
 
   bool operator<(const FoundPlace& other) const

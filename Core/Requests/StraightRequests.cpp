@@ -6,7 +6,6 @@
 #include "Mesh/Distance.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace quadrille
@@ -61,7 +60,7 @@ private:
 
   double distance(const std::vector<Index>& edges, const Vector3& place) const
   {
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = kInfinity;
     for (const Index h : edges)
     {
       nearest = std::min(nearest,

@@ -10,7 +10,6 @@
 #include "Mesh/Triangulate.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -149,7 +148,7 @@ Index SurfacePlaces::nearestOfAll(const Vector3& p) const
 {
   struct Found
   {
-    double squared = std::numeric_limits<double>::infinity();
+    double squared = kInfinity;
     Index triangle = kInvalidIndex;
   };
   const auto parts = parallelParts<Found>(triangleCount(), kLightChunk, threads_,

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -505,7 +504,7 @@ int IrregularList::valenceAt(const Vector3& place) const
 Vector3 IrregularList::sameAs(const Vector3& place, double sameWithin) const
 {
   Vector3 best = place;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const auto& [other, valence] : valences_)
   {
     const double distance = (other - place).norm();

@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <unordered_set>
 
 namespace quadrille
@@ -73,7 +72,7 @@ SurfacePatch measurePatch(const Mesh& mesh, const Index* begin, const Index* end
   }
   patch.centre = patch.area > 0 ? Vector3(patch.centre / patch.area) : mesh.middleOfFace(*begin);
   patch.normal = sum.norm() > 0 ? Vector3(sum.normalized()) : Vector3(Vector3::Zero());
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   for (const Index* f = begin; f != end; ++f)
   {
     const double distance = (mesh.middleOfFace(*f) - patch.centre).squaredNorm();

@@ -30,7 +30,7 @@ struct SurfaceRay
 /// Where the ray enters the box, or infinity where it misses it.
 double entryOf(const Eigen::AlignedBox3f& box, const SurfaceRay& ray)
 {
-  double enter = 0, leave = std::numeric_limits<double>::infinity();
+  double enter = 0, leave = kInfinity;
   for (int i = 0; i < 3; ++i)
   {
     const double low = box.min()[i] - ray.from[i], high = box.max()[i] - ray.from[i];
@@ -38,7 +38,7 @@ double entryOf(const Eigen::AlignedBox3f& box, const SurfaceRay& ray)
     {
       if (low > 0 || high < 0)
       {
-        return std::numeric_limits<double>::infinity();
+        return kInfinity;
       }
       continue;
     }
@@ -46,7 +46,7 @@ double entryOf(const Eigen::AlignedBox3f& box, const SurfaceRay& ray)
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
   }
-  return enter <= leave ? enter : std::numeric_limits<double>::infinity();
+  return enter <= leave ? enter : kInfinity;
 }
 
 class SheetTree
@@ -136,9 +136,7 @@ private:
     const Vector3 p = distance * ray.direction - to;
     const double scale = normal.squaredNorm();
     const double u = normal.dot(p.cross(b)), v = normal.dot(a.cross(p));
-    return distance > 0 && u >= 0 && v >= 0 && u + v <= scale
-      ? distance
-      : std::numeric_limits<double>::infinity();
+    return distance > 0 && u >= 0 && v >= 0 && u + v <= scale ? distance : kInfinity;
   }
 
   const Mesh& mesh_;
@@ -160,7 +158,7 @@ double distanceFrom(
   {
     nearest = tree.firstHit({ p, side * patch.normal }, nearest, isOpposite);
   }
-  return nearest < reach ? nearest : std::numeric_limits<double>::infinity();
+  return nearest < reach ? nearest : kInfinity;
 }
 
 float medianGap(std::vector<float>& values)

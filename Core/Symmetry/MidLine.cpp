@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <utility>
 
@@ -71,8 +70,7 @@ class BandBuilder
 public:
   BandBuilder(const Mesh& mesh, const std::vector<std::uint8_t>& isGlued,
     const std::vector<FixedVec2>& uv, double rows)
-    : mesh_(mesh), rows_(rows),
-      distance_(mesh.vertexCount(), std::numeric_limits<double>::infinity())
+    : mesh_(mesh), rows_(rows), distance_(mesh.vertexCount(), kInfinity)
   {
     walk(isGlued, uv);
   }

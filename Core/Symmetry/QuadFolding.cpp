@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -166,7 +165,7 @@ private:
   /// Of quads behind without an image the edge that may be that of an edge in front.
   Index nearestImage(Index front) const
   {
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = kInfinity;
     Index best = kInvalidIndex;
     for (Index other = 0; other < 4 * given_.quads.size(); ++other)
     {

@@ -120,7 +120,7 @@ void SeamMarks::beginClosed(Course& first, const std::vector<std::size_t>& here,
 /// Of a place, along the chain.
 double SeamMarks::nearestWay(const Course& course, const Vector3& p) const
 {
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   double way = 0;
   for (std::size_t i = 0; i < course.chain->edges.size(); ++i)
   {

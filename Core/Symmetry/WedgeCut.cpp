@@ -194,7 +194,7 @@ private:
   {
     if (first.closed != second.closed)
     {
-      return std::numeric_limits<double>::infinity();
+      return kInfinity;
     }
     const auto apart = [&](const Vector3& here, const Vector3& there)
     { return (rotation_.image(here) - there).norm(); };
@@ -223,7 +223,7 @@ private:
     for (const BorderChain& first : chains[0])
     {
       std::size_t best = chains[1].size();
-      double least = std::numeric_limits<double>::infinity();
+      double least = kInfinity;
       for (std::size_t i = 0; i < chains[1].size(); ++i)
       {
         const double apart = isTaken[i] == 0 ? distance(first, chains[1][i]) : least;

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace quadrille
 {
@@ -139,7 +138,7 @@ std::vector<double> PatchProblems::nearnessToFixed() const
   for (std::size_t i = 0; i < patch_.faces().size(); ++i)
   {
     const Vector3 middle = mesh_.middleOfFace(patch_.faces()[i]);
-    double squared = std::numeric_limits<double>::infinity();
+    double squared = kInfinity;
     for (const Vector3& p : fixed)
     {
       squared = std::min(squared, (middle - p).squaredNorm());
