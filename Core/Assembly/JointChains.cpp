@@ -182,7 +182,7 @@ void JointChains::findChains()
     std::size_t fine = fineLoops_.size();
     for (const Index h : halfEdges)
     {
-      const Index p = quads_.quads[h / 4][h % 4];
+      const Index p = quads_.origin(h);
       const SheetBorders::OnLoop place = borders_.nearestOnLoops(sheet, quads_.points[p]);
       fine = fine == fineLoops_.size() ? place.loop : fine;
       points.emplace_back(place.arc, p);

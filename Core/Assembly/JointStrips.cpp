@@ -155,7 +155,7 @@ bool JointStrips::splitFrom(const ChainPlace& from, bool mayRaise)
   {
     if (topology.twin[h] == kInvalidIndex)
     {
-      boundary[{ quads_.quads[h / 4][h % 4], quads_.quads[h / 4][(h + 1) % 4] }] = h;
+      boundary[{ quads_.origin(h), quads_.target(h) }] = h;
     }
   }
   struct Choice
@@ -208,7 +208,7 @@ bool JointStrips::splitFrom(const ChainPlace& from, bool mayRaise)
 std::pair<Index, Index> JointStrips::endOf(const QuadPath& chord) const
 {
   const Index h = oppositeInQuad(chord.back());
-  return { quads_.quads[h / 4][h % 4], quads_.quads[h / 4][(h + 1) % 4] };
+  return { quads_.origin(h), quads_.target(h) };
 }
 
 std::optional<JointStrips::ChainPlace> JointStrips::chainOf(Index sheet, Index x, Index y) const

@@ -155,22 +155,14 @@ std::vector<Index> edgesOfLines(const QuadMesh& mesh)
   {
     return {};
   }
-  const auto point = [&](Index h) { return mesh.quads[h / 4][h % 4]; };
-  const Grouped<> leaving(mesh.points.size(),
-    [&](const auto& visit)
-    {
-      for (Index h = 0; h < 4 * mesh.quads.size(); ++h)
-      {
-        visit(point(h), h);
-      }
-    });
+  const Grouped<> leaving = halfEdgesAtPoints(mesh.quads, mesh.points.size());
   std::vector<Index> edges;
   for (const QuadLine& line : mesh.lines)
   {
     const auto lowest = [&](Index a, Index b)
     {
       const Index* h = std::find_if(
-        leaving.begin(a), leaving.end(a), [&](Index g) { return point(nextInQuad(g)) == b; });
+        leaving.begin(a), leaving.end(a), [&](Index g) { return mesh.target(g) == b; });
       return h == leaving.end(a) ? kInvalidIndex : 2 * *h;
     };
     const Index forwards = lowest(line.a, line.b), backwards = lowest(line.b, line.a);
@@ -190,8 +182,8 @@ void renameLines(const std::vector<Index>& edges, QuadMesh& mesh)
     {
       lines.push_back(mesh.lines[l]);
       const bool isBackwards = edges[l] % 2 != 0;
-      (isBackwards ? lines.back().b : lines.back().a) = mesh.quads[h / 4][h % 4];
-      (isBackwards ? lines.back().a : lines.back().b) = mesh.quads[h / 4][nextInQuad(h) % 4];
+      (isBackwards ? lines.back().b : lines.back().a) = mesh.origin(h);
+      (isBackwards ? lines.back().a : lines.back().b) = mesh.target(h);
     }
   }
   mesh.lines.swap(lines);

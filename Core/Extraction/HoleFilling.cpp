@@ -138,7 +138,7 @@ std::vector<std::vector<Index>> simpleLoops(const QuadMesh& quads, const std::ve
   std::vector<Index> path;
   for (const Index h : loop)
   {
-    const Index p = quads.quads[h / 4][h % 4];
+    const Index p = quads.origin(h);
     const auto earlier = std::find(path.begin(), path.end(), p);
     if (earlier != path.end())
     {

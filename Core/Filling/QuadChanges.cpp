@@ -27,14 +27,7 @@ Edge edgeOf(const Quad& quad, std::size_t i)
 
 QuadChanges::QuadChanges(FaceQuads& mesh, Judge judge)
   : mesh_(mesh), judge_(std::move(judge)), topology_(analyzeQuads(mesh.quads, mesh.points.size())),
-    isChanged_(mesh.quads.size(), 0), quadsAt_(mesh.points.size(),
-                                        [&mesh](const auto& visit)
-                                        {
-                                          for (Index h = 0; h < 4 * mesh.quads.size(); ++h)
-                                          {
-                                            visit(mesh.quads[h / 4][h % 4], h);
-                                          }
-                                        })
+    isChanged_(mesh.quads.size(), 0), quadsAt_(halfEdgesAtPoints(mesh.quads, mesh.points.size()))
 {
 }
 

@@ -44,15 +44,8 @@ QuadScore scoreOf(const FaceQuads& mesh)
 
 QuadPatches::QuadPatches(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices)
   : mesh_(mesh), quads_(quads), topology_(analyzeQuads(quads.quads, quads.points.size())),
-    quadsAt_(quads.points.size(),
-      [&quads](const auto& visit)
-      {
-        for (Index c = 0; c < 4 * quads.quads.size(); ++c)
-        {
-          visit(quads.quads[c / 4][c % 4], c / 4);
-        }
-      }),
-    stays_(quads.points.size(), 0), onLine_(topology_.onBoundary), isTouched_(quads.quads.size(), 0)
+    quadsAt_(quadsAtPoints(quads.quads, quads.points.size())), stays_(quads.points.size(), 0),
+    onLine_(topology_.onBoundary), isTouched_(quads.quads.size(), 0)
 {
   for (const QuadLine& line : quads.lines)
   {
@@ -139,7 +132,7 @@ bool QuadPatches::collect(Index first, QuadPatch& patch) const
     {
       for (Index h = 4 * patch.quads[begin]; h < 4 * patch.quads[begin] + 4; ++h)
       {
-        const Index a = quads_.quads[h / 4][h % 4], b = quads_.quads[h / 4][nextInQuad(h) % 4];
+        const Index a = quads_.origin(h), b = quads_.target(h);
         const Index twin = topology_.twin[h];
         if (twin != kInvalidIndex && !isOnLine(a, b))
         {

@@ -29,14 +29,7 @@ class QuadRelaxation
 {
 public:
   QuadRelaxation(FaceQuads& mesh, const FaceGround& ground)
-    : mesh_(mesh), ground_(ground), cornersAt_(mesh.points.size(),
-                                      [&mesh](const auto& visit)
-                                      {
-                                        for (Index c = 0; c < 4 * mesh.quads.size(); ++c)
-                                        {
-                                          visit(mesh.quads[c / 4][c % 4], c);
-                                        }
-                                      })
+    : mesh_(mesh), ground_(ground), cornersAt_(halfEdgesAtPoints(mesh.quads, mesh.points.size()))
   {
   }
 

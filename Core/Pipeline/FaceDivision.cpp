@@ -282,8 +282,7 @@ private:
     {
       if (topology.twin[h] == kInvalidIndex)
       {
-        const Index a = restQuads_->quads[h / 4][h % 4],
-                    b = restQuads_->quads[h / 4][nextInQuad(h) % 4];
+        const Index a = restQuads_->origin(h), b = restQuads_->target(h);
         neighbours[a][1] = b;
         neighbours[b][0] = a;
       }
@@ -545,7 +544,7 @@ std::vector<Vector3> gapsIn(const QuadMesh& quads)
   std::vector<Index> points = topology.defectPoints;
   for (Index h = 0; h < topology.twin.size(); ++h)
   {
-    const Index a = quads.quads[h / 4][h % 4], b = quads.quads[h / 4][nextInQuad(h) % 4];
+    const Index a = quads.origin(h), b = quads.target(h);
     if (topology.twin[h] == kInvalidIndex && boundary.count(std::minmax(a, b)) == 0)
     {
       points.push_back(a);

@@ -12,13 +12,6 @@ namespace quadrille
 namespace
 {
 
-constexpr int kRegularEdges = 4;
-
-Index originInQuads(const QuadMesh& quads, Index h)
-{
-  return quads.quads[h / 4][h % 4];
-}
-
 double distanceToLoop(const std::vector<Vector3>& polyline, const Vector3& p)
 {
   double least = kInfinity;
@@ -33,27 +26,20 @@ double distanceToLoop(const std::vector<Vector3>& polyline, const Vector3& p)
 
 QuadChains::QuadChains(const QuadMesh& quads)
   : quads_(quads), twin_(4 * quads.quads.size(), kInvalidIndex),
-    leaving_(quads.points.size(),
-      [&](const auto& visit)
-      {
-        for (Index h = 0; h < 4 * quads.quads.size(); ++h)
-        {
-          visit(originInQuads(quads, h), h);
-        }
-      })
+    leaving_(halfEdgesAtPoints(quads.quads, quads.points.size()))
 {
   for (Index h = 0; h < twin_.size(); ++h)
   {
     for (const Index* g = leaving_.begin(end(h)); g != leaving_.end(end(h)); ++g)
     {
-      twin_[h] = end(*g) == originInQuads(quads, h) ? *g : twin_[h];
+      twin_[h] = end(*g) == quads.origin(h) ? *g : twin_[h];
     }
   }
 }
 
 Index QuadChains::end(Index h) const
 {
-  return originInQuads(quads_, nextInQuad(h));
+  return quads_.target(h);
 }
 
 /// The half-edge that leaves the end of h with two quads between them on that side; none on a boundary.
@@ -96,7 +82,7 @@ std::vector<Index> QuadChains::between(Index a, Index b) const
 std::vector<Index> QuadChains::closedFrom(Index first, ChainSide side,
   const std::vector<double>& away, double distance, std::vector<std::uint8_t>& passed) const
 {
-  std::vector<Index> chain{ originInQuads(quads_, first) };
+  std::vector<Index> chain{ quads_.origin(first) };
   std::optional<Index> h = first;
   do
   {
@@ -121,7 +107,7 @@ std::vector<std::vector<Index>> QuadChains::closedNear(
     std::vector<std::uint8_t> passed(twin_.size(), 0);
     for (Index h = 0; h < twin_.size(); ++h)
     {
-      if (passed[h] != 0 || away[originInQuads(quads_, h)] > distance)
+      if (passed[h] != 0 || away[quads_.origin(h)] > distance)
       {
         continue;
       }

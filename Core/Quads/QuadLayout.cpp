@@ -67,8 +67,6 @@ public:
   }
 
 private:
-  Index origin(Index h) const { return mesh_.quads[h / 4][h % 4]; }
-  Index target(Index h) const { return origin(nextInQuad(h)); }
   Index twin(Index h) const { return twin_[h]; }
   bool isBoundary(Index h) const { return twin(h) == kInvalidIndex; }
   bool isWall(Index h) const { return isBoundary(h) || (marks_[h] & kWall) != 0; }
@@ -111,8 +109,8 @@ private:
     vertex.onBoundary = isBoundary(first);
     vertex.outgoing = vertex.onBoundary ? first : h;
     vertex.valence = vertex.onBoundary ? 1 : 0;
-    vertex.nextOfPoint = firstVertex_[origin(h)];
-    firstVertex_[origin(h)] = static_cast<Index>(vertices_.size());
+    vertex.nextOfPoint = firstVertex_[mesh_.origin(h)];
+    firstVertex_[mesh_.origin(h)] = static_cast<Index>(vertices_.size());
     forEachOutgoing(vertex,
       [&](Index g)
       {
@@ -144,7 +142,7 @@ private:
         [&](Index h)
         {
           const Index in = previousInQuad(h);
-          found = target(h) == b ? h : isBoundary(in) && origin(in) == b ? in : found;
+          found = mesh_.target(h) == b ? h : isBoundary(in) && mesh_.origin(in) == b ? in : found;
         });
     }
     return found;
@@ -272,10 +270,10 @@ private:
       line.count = end - i + 1;
       line.feature = isFeature(path_[i]);
       line.separatrix = separatrix;
-      layout_.linePoints.push_back(origin(path_[i]));
+      layout_.linePoints.push_back(mesh_.origin(path_[i]));
       for (std::size_t k = i; k < end; ++k)
       {
-        layout_.linePoints.push_back(target(path_[k]));
+        layout_.linePoints.push_back(mesh_.target(path_[k]));
       }
       const bool loop = closed && line.count == path_.size() + 1;
       line.start = loop ? LineEnd::Closed : endAt(vertexAt(path_[i]));

@@ -7,6 +7,35 @@
 
 namespace quadrille
 {
+namespace
+{
+
+/// Per point visit(point, itemOf(half-edge)) of the half-edges that leave it.
+template <typename ItemOf>
+Grouped<> atPoints(
+  const std::vector<std::array<Index, 4>>& quads, std::size_t points, const ItemOf& itemOf)
+{
+  return { points,
+    [&](const auto& visit)
+    {
+      for (Index h = 0; h < 4 * quads.size(); ++h)
+      {
+        visit(quads[h / 4][h % 4], itemOf(h));
+      }
+    } };
+}
+
+} // namespace
+
+Grouped<> halfEdgesAtPoints(const std::vector<std::array<Index, 4>>& quads, std::size_t points)
+{
+  return atPoints(quads, points, [](Index h) { return h; });
+}
+
+Grouped<> quadsAtPoints(const std::vector<std::array<Index, 4>>& quads, std::size_t points)
+{
+  return atPoints(quads, points, [](Index h) { return h / 4; });
+}
 
 std::optional<Index> meshCorner(const QuadMesh& quads, Index p)
 {

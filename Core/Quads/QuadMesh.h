@@ -22,6 +22,12 @@ struct QuadLine
 };
 
 struct QuadMesh
+/// Half-edge 4q + i runs from corner i of quad q to corner i + 1.
+inline Index nextInQuad(Index h)
+{
+  return h % 4 == 3 ? h - 3 : h + 1;
+}
+
 {
   std::vector<Vector3> points;
   std::vector<std::array<Index, 4>> quads;          ///< counterclockwise like the input's faces
@@ -40,11 +46,13 @@ struct QuadMesh
   std::vector<QuadLine> lines;          ///< features and boundary
 };
 
-/// Half-edge 4q + i runs from corner i of quad q to corner i + 1.
-inline Index nextInQuad(Index h)
-{
-  return h % 4 == 3 ? h - 3 : h + 1;
-}
+  /// The points that a half-edge comes from and leads to.
+  Index origin(Index h) const { return quads[h / 4][h % 4]; }
+  Index target(Index h) const { return origin(nextInQuad(h)); }
+
+/// The half-edges that leave each point, and the quads there; ascending.
+Grouped<> halfEdgesAtPoints(const std::vector<std::array<Index, 4>>& quads, std::size_t points);
+Grouped<> quadsAtPoints(const std::vector<std::array<Index, 4>>& quads, std::size_t points);
 
 inline Index previousInQuad(Index h)
 {

@@ -11,24 +11,6 @@ namespace
 {
 
 constexpr int kMaximumFaces = 2000;
-/// A curve that bends by more than this at a mesh vertex has a corner there that a quad vertex
-/// keeps.
-constexpr double kCurveCorner = 0.5235987755982988; // 30 degrees
-
-PointLists quadsOfPoints(const QuadMesh& quads)
-{
-  return { quads.points.size(),
-    [&](const auto& visit)
-    {
-      for (Index q = 0; q < quads.quads.size(); ++q)
-      {
-        for (const Index p : quads.quads[q])
-        {
-          visit(p, q);
-        }
-      }
-    } };
-}
 
 PointLists endsOfLines(const QuadMesh& quads)
 {
@@ -98,7 +80,8 @@ bool isSmoothCurve(const Mesh& mesh, Index h)
 } // namespace
 
 QuadMoves::QuadMoves(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices)
-  : mesh_(mesh), quads_(quads), incident_(quadsOfPoints(quads)), lines_(endsOfLines(quads))
+  : mesh_(mesh), quads_(quads), incident_(quadsAtPoints(quads.quads, quads.points.size())),
+    lines_(endsOfLines(quads))
 {
   freedom_.resize(quads_.points.size());
   for (Index p = 0; p < quads_.points.size(); ++p)

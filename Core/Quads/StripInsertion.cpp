@@ -20,16 +20,6 @@ namespace
 constexpr double kTurnCost = 20;
 constexpr double kIrregularCost = 10;
 
-Index fromOf(const QuadMesh& mesh, Index h)
-{
-  return mesh.quads[h / 4][h % 4];
-}
-
-Index toOf(const QuadMesh& mesh, Index h)
-{
-  return fromOf(mesh, nextInQuad(h));
-}
-
 /// A point at the same place, on the other side of the strip.
 void addCopy(QuadMesh& mesh, Index p, InsertedStrip& strip)
 {
@@ -45,7 +35,7 @@ std::vector<Index> halfEdgesOfLines(const QuadMesh& mesh)
   std::vector<std::tuple<Index, Index, Index>> edges;
   for (Index h = 0; h < 4 * mesh.quads.size(); ++h)
   {
-    const Index a = fromOf(mesh, h), b = toOf(mesh, h);
+    const Index a = mesh.origin(h), b = mesh.target(h);
     edges.emplace_back(std::min(a, b), std::max(a, b), h);
   }
   std::sort(edges.begin(), edges.end());
@@ -93,7 +83,7 @@ public:
     }
     for (Index h = 0; h < 4 * mesh_.quads.size(); ++h)
     {
-      const Index from = fromOf(mesh_, h);
+      const Index from = mesh_.origin(h);
       const auto start = startCost.find(from);
       if (topology_.onBoundary[from] != 0 && start != startCost.end())
       {
@@ -110,7 +100,7 @@ public:
       {
         continue;
       }
-      const Index at = toOf(mesh_, h);
+      const Index at = mesh_.target(h);
       if (topology_.onBoundary[at] == 0)
       {
         goOn(h, cost);
@@ -151,7 +141,7 @@ private:
   /// From the target of h, clockwise from the leftmost edge.
   void goOn(Index h, double cost)
   {
-    const int valence = topology_.valence[toOf(mesh_, h)];
+    const int valence = topology_.valence[mesh_.target(h)];
     int turn = 1;
     for (Index g = nextInQuad(h); g != topology_.twin[h]; g = nextInQuad(topology_.twin[g]), ++turn)
     {
@@ -163,10 +153,10 @@ private:
 
   bool isSimple(Index last) const
   {
-    std::set<Index> seen{ toOf(mesh_, last) };
+    std::set<Index> seen{ mesh_.target(last) };
     for (Index h = last; h != kInvalidIndex; h = before_[h])
     {
-      if (!seen.insert(fromOf(mesh_, h)).second)
+      if (!seen.insert(mesh_.origin(h)).second)
       {
         return false;
       }
@@ -278,9 +268,9 @@ InsertedStrip splitChord(QuadMesh& mesh, const QuadPath& chord)
   InsertedStrip strip;
   for (const Index h : chord)
   {
-    addCopy(mesh, fromOf(mesh, h), strip);
+    addCopy(mesh, mesh.origin(h), strip);
   }
-  addCopy(mesh, toOf(mesh, oppositeInQuad(chord.back())), strip);
+  addCopy(mesh, mesh.target(oppositeInQuad(chord.back())), strip);
   // Crossed lines: one half stays where it was, the other one is new.
   std::vector<QuadLine> halves;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l)
@@ -305,8 +295,8 @@ InsertedStrip splitChord(QuadMesh& mesh, const QuadPath& chord)
   for (std::size_t i = 0; i < chord.size(); ++i)
   {
     const Index h = chord[i], q = h / 4;
-    const Index a = fromOf(mesh, h), b = toOf(mesh, h);
-    const Index c = fromOf(mesh, oppositeInQuad(h)), d = toOf(mesh, oppositeInQuad(h));
+    const Index a = mesh.origin(h), b = mesh.target(h);
+    const Index c = mesh.origin(oppositeInQuad(h)), d = mesh.target(oppositeInQuad(h));
     const Index m = strip.points[i].second, next = strip.points[i + 1].second;
     mesh.quads[q] = { a, m, next, d };
     mesh.quads.push_back({ m, b, c, next });
@@ -326,7 +316,7 @@ InsertedStrip insertStrip(QuadMesh& mesh, const QuadPath& path)
   InsertedStrip strip;
   for (std::size_t i = 0; i < right.size(); ++i)
   {
-    addCopy(mesh, i < path.size() ? fromOf(mesh, path[i]) : toOf(mesh, path.back()), strip);
+    addCopy(mesh, i < path.size() ? mesh.origin(path[i]) : mesh.target(path.back()), strip);
   }
   for (std::size_t i = 0; i < right.size(); ++i)
   {
@@ -359,8 +349,8 @@ InsertedStrip insertStrip(QuadMesh& mesh, const QuadPath& path)
   {
     if (lineHalfEdges[l] != kInvalidIndex)
     {
-      mesh.lines[l].a = fromOf(mesh, lineHalfEdges[l]);
-      mesh.lines[l].b = toOf(mesh, lineHalfEdges[l]);
+      mesh.lines[l].a = mesh.origin(lineHalfEdges[l]);
+      mesh.lines[l].b = mesh.target(lineHalfEdges[l]);
     }
   }
   for (std::size_t i = 0; i < right.size(); ++i)

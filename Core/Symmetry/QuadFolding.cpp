@@ -60,9 +60,6 @@ private:
       std::count_if(quad.begin(), quad.end(), [&](Index p) { return isFront(p); }));
   }
 
-  Index from(Index h) const { return given_.quads[h / 4][h % 4]; }
-  Index to(Index h) const { return from(nextInQuad(h)); }
-
   void pair(Index a, Index b)
   {
     const bool isNew = image_[a] == kInvalidIndex && image_[b] == kInvalidIndex;
@@ -74,8 +71,8 @@ private:
   /// Both ends of a half-edge and of its image, which runs the other way.
   void pairEdges(Index h, Index image)
   {
-    pair(from(h), to(image));
-    pair(to(h), from(image));
+    pair(given_.origin(h), given_.target(image));
+    pair(given_.target(h), given_.origin(image));
   }
 
   /// The quads beyond two half-edges that are each other's images.
@@ -98,13 +95,14 @@ private:
         continue;
       }
       Index h = 4 * q;
-      while (h < 4 * q + 4 && !(isFront(from(h)) && isFront(to(h)) && front == 2))
+      while (
+        h < 4 * q + 4 && !(isFront(given_.origin(h)) && isFront(given_.target(h)) && front == 2))
       {
         ++h;
       }
       if (h == 4 * q + 4)
       {
-        crowded_ = from(4 * q);
+        crowded_ = given_.origin(4 * q);
         continue;
       }
       pairEdges(h, oppositeInQuad(h));
@@ -125,9 +123,10 @@ private:
       {
         continue;
       }
-      if (image == kInvalidIndex || imageOfQuad_[image / 4] != kInvalidIndex || !isFront(from(h)))
+      if (image == kInvalidIndex || imageOfQuad_[image / 4] != kInvalidIndex ||
+        !isFront(given_.origin(h)))
       {
-        crowded_ = from(h);
+        crowded_ = given_.origin(h);
         continue;
       }
       imageOfQuad_[q] = image / 4;
@@ -177,7 +176,9 @@ private:
       Index image = other;
       for (Index k = 0, h = front; k < 4; ++k, h = nextInQuad(h))
       {
-        sum += (given_.points[from(image)] - mirror_.image(given_.points[from(h)])).squaredNorm();
+        sum +=
+          (given_.points[given_.origin(image)] - mirror_.image(given_.points[given_.origin(h)]))
+            .squaredNorm();
         image = previousInQuad(image);
       }
       if (sum < nearest && frontCorners(other / 4) == 0)
@@ -193,9 +194,9 @@ private:
   {
     for (Index h = 0; h < 4 * given_.quads.size(); ++h)
     {
-      if (image_[from(h)] == kInvalidIndex || imageOfQuad_[h / 4] == kInvalidIndex)
+      if (image_[given_.origin(h)] == kInvalidIndex || imageOfQuad_[h / 4] == kInvalidIndex)
       {
-        return from(h);
+        return given_.origin(h);
       }
     }
     return kInvalidIndex;

@@ -48,7 +48,7 @@ std::vector<SeamChain> seamChains(
   const auto from = [&](Index h) { return quads.quads[h / 4][h % 4]; };
   const auto partAt = [&](Index h)
   {
-    const auto edge = partOfEdge.find(std::minmax(from(h), from(nextInQuad(h))));
+    const auto edge = partOfEdge.find(std::minmax(quads.origin(h), quads.target(h)));
     return edge == partOfEdge.end() ? none : edge->second;
   };
   std::vector<SeamChain> chains(none);
@@ -56,8 +56,8 @@ std::vector<SeamChain> seamChains(
   for (std::vector<Index> loop : boundaryLoops(analyzeQuads(quads.quads, quads.points.size())))
   {
     // From where a part begins, or from the lowest point of a closed one.
-    auto first = std::min_element(
-      loop.begin(), loop.end(), [&](Index g, Index h) { return from(g) < from(h); });
+    auto first = std::min_element(loop.begin(), loop.end(),
+      [&](Index g, Index h) { return quads.origin(g) < quads.origin(h); });
     for (std::size_t i = 0; i < loop.size(); ++i)
     {
       const bool isBegin = partAt(loop[i]) != partAt(loop[i == 0 ? loop.size() - 1 : i - 1]);
@@ -70,9 +70,9 @@ std::vector<SeamChain> seamChains(
       if (part != none)
       {
         SeamChain& chain = chains[part];
-        isBroken[part] |= !chain.empty() && chain.back() != from(h) ? 1 : 0;
-        chain.resize(std::max<std::size_t>(chain.size(), 1), from(h));
-        chain.push_back(from(nextInQuad(h)));
+        isBroken[part] |= !chain.empty() && chain.back() != quads.origin(h) ? 1 : 0;
+        chain.resize(std::max<std::size_t>(chain.size(), 1), quads.origin(h));
+        chain.push_back(quads.target(h));
       }
     }
   }
