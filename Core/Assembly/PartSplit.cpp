@@ -83,9 +83,7 @@ private:
 
   Place placeOn(Index f, const Vector3& p) const
   {
-    const Vector3& a = mesh_.position[mesh_.origin[3 * f]];
-    const Vector3& b = mesh_.position[mesh_.origin[3 * f + 1]];
-    const Vector3& c = mesh_.position[mesh_.origin[3 * f + 2]];
+    const auto [a, b, c] = mesh_.cornersOfFace(f);
     const Vector3 at = nearestOnTriangle(p, a, b, c);
     const Vector3 normal = (b - a).cross(c - a);
     const double area = normal.squaredNorm();
@@ -364,11 +362,8 @@ public:
     for (Index f = 0; f < mesh_.faceCount(); ++f)
     {
       pollNowAndThen(f);
-      const double distance =
-        (nearestOnTriangle(place, mesh_.position[mesh_.origin[3 * f]],
-           mesh_.position[mesh_.origin[3 * f + 1]], mesh_.position[mesh_.origin[3 * f + 2]]) -
-          place)
-          .squaredNorm();
+      const auto [a, b, c] = mesh_.cornersOfFace(f);
+      const double distance = (nearestOnTriangle(place, a, b, c) - place).squaredNorm();
       if (distance < least)
       {
         least = distance;

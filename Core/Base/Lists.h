@@ -121,6 +121,11 @@ public:
   const Item* begin(std::size_t key) const { return items_.data() + first_[key]; }
   const Item* end(std::size_t key) const { return items_.data() + first_[key + 1]; }
   Index size(std::size_t key) const { return first_[key + 1] - first_[key]; }
+  /// Of the two items of a key the one that is not this one.
+  const Item& otherThan(std::size_t key, const Item& item) const
+  {
+    return *begin(key) == item ? begin(key)[1] : *begin(key);
+  }
 
 private:
   std::vector<Index> first_; ///< #keys + 1

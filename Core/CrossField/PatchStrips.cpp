@@ -3,7 +3,6 @@
 #include "CrossField/PatchStrips.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 namespace quadrille
@@ -12,12 +11,7 @@ namespace quadrille
 std::size_t PatchStrips::find()
 {
   const Index nodes = 1 + 4 * sides_.patchCount();
-  first_.assign(nodes + 1, 0);
-  forArcs([&](Index from, Index /*to*/) { ++first_[from + 1]; });
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  next_.resize(first_.back());
-  std::vector<Index> end(first_.begin(), first_.end() - 1);
-  forArcs([&](Index from, Index to) { next_[end[from]++] = to; });
+  next_ = { nodes, [this](const auto& visit) { forArcs(visit); } };
   components_ = StrongComponents<NextNodes>(nodes);
   for (Index node = 0; node < nodes; ++node)
   {
@@ -126,7 +120,7 @@ bool PatchStrips::hasStrip(Index h) const
 /// #patches: where strips come to that begin at a side without any, forwards or backwards.
 std::vector<std::uint8_t> PatchStrips::reached() const
 {
-  std::vector<std::uint8_t> seen(first_.size() - 1, 0), found(sides_.patchCount(), 0);
+  std::vector<std::uint8_t> seen(1 + 4 * sides_.patchCount(), 0), found(sides_.patchCount(), 0);
   std::vector<Index> open;
   const auto add = [&](Index node)
   {

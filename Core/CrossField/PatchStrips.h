@@ -14,6 +14,7 @@
 /// it may go on anywhere, and for what is outside. So all of it lies in one strongly connected component.
 #pragma once
 
+#include "Base/Lists.h"
 #include "Base/StrongComponents.h"
 #include "CrossField/PatchSides.h"
 
@@ -53,16 +54,13 @@ private:
   Index nodeBeyond(Index h) const;
   template <typename Visit>
   void forArcs(const Visit& visit) const;
-  NextNodes nextOf(Index node) const
-  {
-    return { next_.data() + first_[node], first_[node + 1] - first_[node] };
-  }
+  NextNodes nextOf(Index node) const { return { next_.begin(node), next_.size(node) }; }
   bool hasStrip(Index h) const;
   std::vector<std::uint8_t> reached() const;
 
   PatchSides& sides_;
   const Mesh& mesh_;
-  std::vector<Index> first_, next_; ///< arcs by node
+  Grouped<> next_; ///< nodes that arcs lead to, by those that they come from
   StrongComponents<NextNodes> components_;
 };
 

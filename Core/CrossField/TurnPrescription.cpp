@@ -6,6 +6,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "CrossField/TurnRepair.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,19 +16,6 @@ namespace quadrille
 {
 namespace
 {
-
-std::vector<std::uint8_t> boundaryVertices(const Mesh& mesh)
-{
-  std::vector<std::uint8_t> boundary(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isBoundary(h))
-    {
-      boundary[mesh.origin[h]] = boundary[mesh.target(h)] = 1;
-    }
-  }
-  return boundary;
-}
 
 // Sets of fans whose turns have a fixed sum.
 DisjointSets fansOfFixedSum(const FieldTopology& topology, const TurnPrescription& prescription,

@@ -7,7 +7,6 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
-#include "Features/EdgesAtVertices.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
@@ -97,11 +96,11 @@ private:
     {
       walked += sizedLength(mesh_, h);
       v = mesh_.otherEnd(h, v);
-      if (walked >= edgeLength_ || at_.degree(v) != 2)
+      if (walked >= edgeLength_ || at_.size(v) != 2)
       {
         break;
       }
-      h = at_.otherThan(h, v);
+      h = at_.otherThan(v, h);
       if (h == first)
       {
         break;
@@ -116,14 +115,13 @@ private:
     const Vector3 forward = -courseFrom(v, h);
     double most = std::cos(kBend);
     Index best = kInvalidIndex;
-    for (Index i = at_.offset[v]; i < at_.offset[v + 1]; ++i)
+    for (const Index* edge = at_.begin(v); edge != at_.end(v); ++edge)
     {
-      const double cosine =
-        at_.incident[i] == h ? -1.0 : forward.dot(courseFrom(v, at_.incident[i]));
+      const double cosine = *edge == h ? -1.0 : forward.dot(courseFrom(v, *edge));
       if (cosine > most)
       {
         most = cosine;
-        best = at_.incident[i];
+        best = *edge;
       }
     }
     return best;
@@ -133,11 +131,11 @@ private:
   Index onwards(Index h, Index v) const
   {
     Index next = kInvalidIndex;
-    if (at_.degree(v) == 2)
+    if (at_.size(v) == 2)
     {
-      next = at_.otherThan(h, v);
+      next = at_.otherThan(v, h);
     }
-    else if (at_.degree(v) > 2)
+    else if (at_.size(v) > 2)
     {
       const Index best = straightest(h, v);
       next = best != kInvalidIndex && straightest(best, v) == h ? best : kInvalidIndex;
@@ -168,7 +166,7 @@ private:
         h = next;
         v = mesh_.otherEnd(h, v);
       }
-      curve.freeEnds += at_.degree(v) == 1 ? 1 : 0;
+      curve.freeEnds += at_.size(v) == 1 ? 1 : 0;
     }
     curve.halfEdges.assign(ways[0].rbegin(), ways[0].rend());
     curve.halfEdges.push_back(seed);
@@ -183,7 +181,7 @@ private:
   const Mesh& mesh_;
   double edgeLength_;
   std::vector<Index> edges_;
-  EdgesAtVertices at_;
+  Grouped<> at_; ///< edges by vertex
 };
 
 /// The faces beside a half-edge, as far as no constrained edge is crossed.
@@ -293,7 +291,7 @@ std::vector<CreaseCurve> traceCreases(const Mesh& mesh, double edgeLength, int t
     throw InvalidInput("the edge length for judging creases must be positive");
   }
   std::vector<CreaseCurve> curves = CreaseNetwork(mesh, edgeLength, threads).curves();
-  parallelForEach(curves.size(), kCurveChunk, threads,
+  parallelForEach(curves.size(), 1, threads,
     [&](std::size_t i)
     {
       if (curves[i].freeEnds > 0 && curves[i].length < kLongCrease)

@@ -6,7 +6,6 @@
 #include "Base/Error.h"
 #include "Base/Lists.h"
 #include "Base/Progress.h"
-#include "Features/EdgesAtVertices.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
@@ -57,9 +56,9 @@ public:
   bool endsThere(Index v) const
   {
     Index features = 0;
-    for (Index i = at_.offset[v]; i < at_.offset[v + 1]; ++i)
+    for (const Index* edge = at_.begin(v); edge != at_.end(v); ++edge)
     {
-      features += !mesh_.isBoundary(at_.incident[i]);
+      features += !mesh_.isBoundary(*edge);
     }
     return features == 1;
   }
@@ -78,8 +77,8 @@ private:
         {
           continue;
         }
-        const bool startsHere = at_.degree(mesh_.origin[h]) != 2;
-        const bool endsHere = at_.degree(mesh_.target(h)) != 2;
+        const bool startsHere = at_.size(mesh_.origin[h]) != 2;
+        const bool endsHere = at_.size(mesh_.target(h)) != 2;
         if (startsHere || endsHere || loops)
         {
           trace(h, startsHere ? mesh_.origin[h] : mesh_.target(h), done);
@@ -101,18 +100,18 @@ private:
       chain.removable =
         chain.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
       v = mesh_.otherEnd(h, v);
-      if (at_.degree(v) != 2)
+      if (at_.size(v) != 2)
       {
         break;
       }
-      const Index next = at_.otherThan(h, v);
+      const Index next = at_.otherThan(v, h);
       if (done[indexIn(edges_, next)] != 0)
       {
         break; // a closed loop without a node
       }
       h = next;
     }
-    if (at_.degree(start) != 2)
+    if (at_.size(start) != 2)
     {
       chain.first = start;
       chain.last = v;
@@ -122,7 +121,7 @@ private:
 
   const Mesh& mesh_;
   const std::vector<Index>& edges_;
-  EdgesAtVertices at_;
+  Grouped<> at_; ///< edges by vertex
   std::vector<Chain> chains_;
 };
 

@@ -3,8 +3,10 @@
 #include "Hierarchy/FeatureCurves.h"
 
 #include "Base/Angles.h"
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 
@@ -14,56 +16,21 @@ namespace quadrille
 namespace
 {
 
-/// Constrained neighbours of the vertices, in compressed rows; only vertices on curves have any.
-class CurveEdges
+/// The neighbours of the vertices along constrained edges.
+Grouped<> constrainedNeighbours(const Mesh& mesh)
 {
-public:
-  explicit CurveEdges(const Mesh& mesh) : offset_(mesh.vertexCount() + 1, 0)
-  {
-    forEachEdge(mesh,
-      [&](Index a, Index b)
-      {
-        ++offset_[a + 1];
-        ++offset_[b + 1];
-      });
-    for (std::size_t v = 1; v < offset_.size(); ++v)
+  const std::vector<Index> edges = constrainedEdges(mesh);
+  return { mesh.vertexCount(),
+    [&](const auto& visit)
     {
-      offset_[v] += offset_[v - 1];
-    }
-    neighbour_.resize(offset_.back());
-    std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
-    forEachEdge(mesh,
-      [&](Index a, Index b)
+      for (std::size_t i = 0; i < edges.size(); ++i)
       {
-        neighbour_[fill[a]++] = b;
-        neighbour_[fill[b]++] = a;
-      });
-  }
-
-  Index degree(Index v) const { return offset_[v + 1] - offset_[v]; }
-  Index neighbour(Index v, Index i) const { return neighbour_[offset_[v] + i]; }
-  /// The other neighbour of a vertex of degree 2.
-  Index other(Index v, Index from) const
-  {
-    return neighbour(v, 0) == from ? neighbour(v, 1) : neighbour(v, 0);
-  }
-
-private:
-  template <typename Body>
-  static void forEachEdge(const Mesh& mesh, const Body& body)
-  {
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-    {
-      pollNowAndThen(h);
-      if (mesh.isConstrained(h) && (mesh.isBoundary(h) || h < mesh.twin[h]))
-      {
-        body(mesh.origin[h], mesh.target(h));
+        pollNowAndThen(i);
+        visit(mesh.origin[edges[i]], mesh.target(edges[i]));
+        visit(mesh.target(edges[i]), mesh.origin[edges[i]]);
       }
-    }
-  }
-  std::vector<Index> offset_;
-  std::vector<Index> neighbour_;
-};
+    } };
+}
 
 /// A maximal chain of constrained edges through vertices of degree 2.
 struct Chain
@@ -72,21 +39,21 @@ struct Chain
   bool closed = false;
 };
 
-Chain followChain(const CurveEdges& graph, Index start, Index second, std::vector<char>& seen)
+Chain followChain(const Grouped<>& graph, Index start, Index second, std::vector<char>& seen)
 {
   Chain chain;
   chain.vertices = { start };
   Index previous = start;
   Index v = second;
-  while (v != start && graph.degree(v) == 2)
+  while (v != start && graph.size(v) == 2)
   {
     seen[v] = 1;
     chain.vertices.push_back(v);
-    const Index next = graph.other(v, previous);
+    const Index next = graph.otherThan(v, previous);
     previous = v;
     v = next;
   }
-  chain.closed = v == start && graph.degree(start) == 2;
+  chain.closed = v == start && graph.size(start) == 2;
   if (!chain.closed)
   {
     chain.vertices.push_back(v);
@@ -94,22 +61,22 @@ Chain followChain(const CurveEdges& graph, Index start, Index second, std::vecto
   return chain;
 }
 
-std::vector<Chain> collectChains(const Mesh& mesh, const CurveEdges& graph)
+std::vector<Chain> collectChains(const Mesh& mesh, const Grouped<>& graph)
 {
   std::vector<Chain> chains;
   std::vector<char> seen(mesh.vertexCount(), 0);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     pollNowAndThen(v);
-    if (graph.degree(v) == 0 || graph.degree(v) == 2)
+    if (graph.size(v) == 0 || graph.size(v) == 2)
     {
       continue;
     }
-    for (Index i = 0; i < graph.degree(v); ++i)
+    for (Index i = 0; i < graph.size(v); ++i)
     {
-      const Index next = graph.neighbour(v, i);
+      const Index next = graph.begin(v)[i];
       // A chain is found from both of its ends; the inner vertices, or the order of the ends, tell it was.
-      const bool direct = graph.degree(next) != 2;
+      const bool direct = graph.size(next) != 2;
       if (direct ? v < next : !seen[next])
       {
         chains.push_back(followChain(graph, v, next, seen));
@@ -119,10 +86,10 @@ std::vector<Chain> collectChains(const Mesh& mesh, const CurveEdges& graph)
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     pollNowAndThen(v);
-    if (graph.degree(v) == 2 && !seen[v])
+    if (graph.size(v) == 2 && !seen[v])
     {
       seen[v] = 1;
-      chains.push_back(followChain(graph, v, graph.neighbour(v, 0), seen));
+      chains.push_back(followChain(graph, v, *graph.begin(v), seen));
     }
   }
   return chains;
@@ -315,13 +282,13 @@ FeatureCurves traceFeatureCurves(const Mesh& mesh, double scale)
   {
     return curves;
   }
-  const CurveEdges graph(mesh);
+  const Grouped<> graph = constrainedNeighbours(mesh);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     pollNowAndThen(v);
-    if (graph.degree(v) > 0)
+    if (graph.size(v) > 0)
     {
-      curves.kind[v] = graph.degree(v) == 2 ? VertexKind::Curve : VertexKind::Protected;
+      curves.kind[v] = graph.size(v) == 2 ? VertexKind::Curve : VertexKind::Protected;
     }
   }
   for (const Chain& chain : collectChains(mesh, graph))

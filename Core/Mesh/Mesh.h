@@ -13,6 +13,7 @@
 #include "Base/SharedArray.h"
 #include "Base/Types.h"
 
+#include <array>
 #include <vector>
 
 namespace quadrille
@@ -66,6 +67,10 @@ struct Mesh
   /// Normal of a face, as long as twice its area.
   Vector3 doubleAreaNormal(Index f) const { return edgeVector(3 * f).cross(edgeVector(3 * f + 1)); }
   double faceArea(Index f) const { return doubleAreaNormal(f).norm() / 2; }
+  std::array<Vector3, 3> cornersOfFace(Index f) const
+  {
+    return { position[origin[3 * f]], position[origin[3 * f + 1]], position[origin[3 * f + 2]] };
+  }
   Vector3 middleOfFace(Index f) const
   {
     return (position[origin[3 * f]] + position[origin[3 * f + 1]] + position[origin[3 * f + 2]]) /

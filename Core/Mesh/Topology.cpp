@@ -194,6 +194,22 @@ std::string checkFans(const Mesh& mesh)
   return {};
 }
 
+/// Flags (#V) of the ends of half-edges for which the predicate holds.
+template <typename Predicate>
+std::vector<std::uint8_t> endsWhere(const Mesh& mesh, const Predicate& predicate)
+{
+  std::vector<std::uint8_t> flags(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    if (predicate(h))
+    {
+      flags[mesh.origin[h]] = flags[mesh.target(h)] = 1;
+    }
+  }
+  return flags;
+}
+
 /// Faces that hang together.
 DisjointSets joinedFaces(const Mesh& mesh, int threads)
 {
@@ -274,17 +290,28 @@ std::vector<Index> constrainedEdges(const Mesh& mesh, int threads)
     [&](Index h) { return mesh.isConstrained(h) && h < mesh.twin[h]; });
 }
 
+Grouped<> edgesAtVertices(const Mesh& mesh, const std::vector<Index>& edges)
+{
+  return { mesh.vertexCount(),
+    [&](const auto& visit)
+    {
+      for (std::size_t i = 0; i < edges.size(); ++i)
+      {
+        pollNowAndThen(i);
+        visit(mesh.origin[edges[i]], edges[i]);
+        visit(mesh.target(edges[i]), edges[i]);
+      }
+    } };
+}
+
 std::vector<std::uint8_t> constrainedVertices(const Mesh& mesh)
 {
-  std::vector<std::uint8_t> flags(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isConstrained(h))
-    {
-      flags[mesh.origin[h]] = flags[mesh.target(h)] = 1;
-    }
-  }
-  return flags;
+  return endsWhere(mesh, [&](Index h) { return mesh.isConstrained(h); });
+}
+
+std::vector<std::uint8_t> boundaryVertices(const Mesh& mesh)
+{
+  return endsWhere(mesh, [&](Index h) { return mesh.isBoundary(h); });
 }
 
 std::vector<Index> boundaryHalfEdges(const Mesh& mesh, int threads)

@@ -3,6 +3,7 @@
 /// Connectivity queries on Mesh that are shared by all stages.
 #pragma once
 
+#include "Base/Lists.h"
 #include "Mesh/Mesh.h"
 
 #include <array>
@@ -24,8 +25,15 @@ std::vector<Index> outgoingHalfEdges(const Mesh& mesh, int threads = 1);
 /// One half-edge, the lower one, of each edge that is a feature or on the boundary; ascending.
 std::vector<Index> constrainedEdges(const Mesh& mesh, int threads = 1);
 
+/// Of some edges, given by one half-edge each, those that end at each vertex (#V), in the order in which they are
+/// given.
+Grouped<> edgesAtVertices(const Mesh& mesh, const std::vector<Index>& edges);
+
 /// Flags (#V) of the ends of edges that are features or on the boundary.
 std::vector<std::uint8_t> constrainedVertices(const Mesh& mesh);
+
+/// Flags (#V) of the ends of boundary edges.
+std::vector<std::uint8_t> boundaryVertices(const Mesh& mesh);
 
 /// Quarter turns of a map round each vertex (#V) where none is irregular: 4, on a boundary 2.
 std::vector<int> regularTurns(const Mesh& mesh);

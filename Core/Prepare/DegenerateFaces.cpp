@@ -151,8 +151,8 @@ public:
 
   bool isCap(Index f) const
   {
-    if (!(flatness(mesh_.position[mesh_.origin[3 * f]], mesh_.position[mesh_.origin[3 * f + 1]],
-            mesh_.position[mesh_.origin[3 * f + 2]]) < kCapHeight))
+    const auto [a, b, c] = mesh_.cornersOfFace(f);
+    if (!(flatness(a, b, c) < kCapHeight))
     {
       return false; // nearly all
     }
@@ -233,9 +233,7 @@ std::vector<Index> findDegenerate(const Mesh& mesh, int threads)
 
 bool isDegenerate(const Mesh& mesh, Index f)
 {
-  const Vector3& a = mesh.position[mesh.origin[3 * f]];
-  const Vector3& b = mesh.position[mesh.origin[3 * f + 1]];
-  const Vector3& c = mesh.position[mesh.origin[3 * f + 2]];
+  const auto [a, b, c] = mesh.cornersOfFace(f);
   const double longest =
     std::max({ (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() });
   const double magnitude =

@@ -11,6 +11,7 @@
 #include "Mesh/Sizing.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/SurfaceEdit.h"
+#include "Mesh/Topology.h"
 #include "Prepare/FlatFlips.h"
 
 #include <algorithm>
@@ -242,9 +243,7 @@ private:
     {
       return { squaredLength(3 * f), squaredLength(3 * f + 1), squaredLength(3 * f + 2) };
     }
-    const Vector3& a = mesh_.position[mesh_.origin[3 * f]];
-    const Vector3& b = mesh_.position[mesh_.origin[3 * f + 1]];
-    const Vector3& c = mesh_.position[mesh_.origin[3 * f + 2]];
+    const auto [a, b, c] = mesh_.cornersOfFace(f);
     return { (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() };
   }
 
@@ -276,21 +275,6 @@ bool anyConstraint(const Mesh& mesh, int threads)
              return !mesh.isConstrained(h) && !mesh.isConstrained(h + 1) &&
                !mesh.isConstrained(h + 2);
            }) < faces;
-}
-
-std::vector<std::uint8_t> verticesOnConstraints(const Mesh& mesh)
-{
-  std::vector<std::uint8_t> on(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    if (mesh.isConstrained(h))
-    {
-      on[mesh.origin[h]] = 1;
-      on[mesh.target(h)] = 1;
-    }
-  }
-  return on;
 }
 
 std::size_t faceLimit(const PreparedSurface& surface, double maximumLength)
@@ -398,7 +382,7 @@ void splitEnclosedFaces(PreparedSurface& surface)
 void splitChords(PreparedSurface& surface)
 {
   const Mesh& mesh = surface.mesh;
-  const std::vector<std::uint8_t> onConstraint = verticesOnConstraints(mesh);
+  const std::vector<std::uint8_t> onConstraint = constrainedVertices(mesh);
   // Vertices made here are on no constraint and have ids past the end of onConstraint.
   const auto isOn = [&](Index v) { return v < onConstraint.size() && onConstraint[v] != 0; };
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)

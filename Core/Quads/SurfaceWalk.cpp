@@ -10,17 +10,11 @@ namespace quadrille
 namespace
 {
 
-std::array<Vector3, 3> cornersOf(const Mesh& mesh, Index f)
-{
-  return { mesh.position[mesh.origin[3 * f]], mesh.position[mesh.origin[3 * f + 1]],
-    mesh.position[mesh.origin[3 * f + 2]] };
-}
-
 /// How fast the weights change along d; the part of d normal to the triangle does not matter. None
 /// for a degenerate triangle.
 std::optional<std::array<double, 3>> weightRates(const Mesh& mesh, Index f, const Vector3& d)
 {
-  const std::array<Vector3, 3> p = cornersOf(mesh, f);
+  const std::array<Vector3, 3> p = mesh.cornersOfFace(f);
   const Vector3 b = p[1] - p[0];
   const Vector3 c = p[2] - p[0];
   const double bb = b.dot(b), bc = b.dot(c), cc = c.dot(c);
@@ -92,7 +86,7 @@ Vector3 positionOf(const Mesh& mesh, const SurfacePoint& point)
 {
   // From the corner with the largest weight on: exact on a vertex, and a coordinate that all
   // corners share stays as it is.
-  const std::array<Vector3, 3> p = cornersOf(mesh, point.face);
+  const std::array<Vector3, 3> p = mesh.cornersOfFace(point.face);
   const std::array<double, 3>& w = point.weights;
   const std::size_t k = w[0] >= w[1] ? (w[0] >= w[2] ? 0 : 2) : (w[1] >= w[2] ? 1 : 2);
   const std::size_t i = (k + 1) % 3;

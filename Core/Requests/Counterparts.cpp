@@ -5,6 +5,7 @@
 #include "Base/Angles.h"
 #include "Base/Lists.h"
 #include "Base/Progress.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <array>
@@ -31,15 +32,7 @@ struct Surroundings
 
 Surroundings surroundingsOf(const Mesh& mesh, Index vertex, double distance)
 {
-  std::vector<std::uint8_t> isBounding(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    if (mesh.isConstrained(h))
-    {
-      isBounding[mesh.origin[h]] = isBounding[mesh.target(h)] = 1;
-    }
-  }
+  const std::vector<std::uint8_t> isBounding = constrainedVertices(mesh);
   const Grouped<> leaving(mesh.vertexCount(),
     [&mesh](const auto& visit)
     {

@@ -8,6 +8,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/Surface.h"
+#include "Mesh/Topology.h"
 #include "Requests/CurveRequests.h"
 #include "Requests/SeamRequests.h"
 #include "Requests/StraightRequests.h"
@@ -117,20 +118,6 @@ std::vector<ValenceRequest> cornerRequests(
     [](const ValenceRequest& a, const ValenceRequest& b)
     { return a.vertex != b.vertex ? a.vertex < b.vertex : a.point < b.point; });
   return requests;
-}
-
-std::vector<std::uint8_t> boundaryVertices(const Mesh& mesh)
-{
-  std::vector<std::uint8_t> boundary(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    if (mesh.isBoundary(h))
-    {
-      boundary[mesh.origin[h]] = boundary[mesh.target(h)] = 1;
-    }
-  }
-  return boundary;
 }
 
 void requireFit(const ValenceRequest& request, const Vector3& place, bool boundary)

@@ -59,9 +59,7 @@ std::vector<FoundPlace> nearestWithin(
   const auto candidates = parallelGather<Candidate>(mesh.faceCount(), kLightChunk, threads,
     [&](Index f, std::vector<Candidate>& list)
     {
-      const Vector3& a = mesh.position[mesh.origin[3 * f]];
-      const Vector3& b = mesh.position[mesh.origin[3 * f + 1]];
-      const Vector3& c = mesh.position[mesh.origin[3 * f + 2]];
+      const auto [a, b, c] = mesh.cornersOfFace(f);
       const Vector3 low = (a.cwiseMin(b).cwiseMin(c).array() - slack).matrix();
       const Vector3 high = (a.cwiseMax(b).cwiseMax(c).array() + slack).matrix();
       auto at = std::lower_bound(sorted.x.begin(), sorted.x.end(), low.x());
@@ -102,8 +100,8 @@ MeshPlace nearestOfAll(const Mesh& mesh, const Vector3& p, int threads)
 
 Vector3 nearestOnFace(const Mesh& mesh, Index f, const Vector3& p)
 {
-  return nearestOnTriangle(p, mesh.position[mesh.origin[3 * f]],
-    mesh.position[mesh.origin[3 * f + 1]], mesh.position[mesh.origin[3 * f + 2]]);
+  const auto [a, b, c] = mesh.cornersOfFace(f);
+  return nearestOnTriangle(p, a, b, c);
 }
 
 std::vector<MeshPlace> placesOnMesh(

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/SeamRequests.h"
 
+#include "Base/Lists.h"
 #include "Mesh/BoundaryPlaces.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ class SeamFinder
 {
 public:
   SeamFinder(const Mesh& mesh, const std::vector<SeamRequest>& requests)
-    : mesh_(mesh), requests_(requests), isEnd_(mesh.vertexCount(), 0), boundary_(mesh)
+    : mesh_(mesh), isEnd_(mesh.vertexCount(), 0), boundary_(mesh)
   {
     for (const SeamRequest& request : requests)
     {
@@ -68,7 +69,6 @@ private:
   }
 
   const Mesh& mesh_;
-  const std::vector<SeamRequest>& requests_;
   std::vector<Index> ends_; ///< four a request
   std::vector<std::uint8_t> isEnd_;
   BoundaryPlaces boundary_;
@@ -98,8 +98,7 @@ std::vector<Index> seamVertices(const Mesh& mesh, const std::vector<SeamRequest>
     return {};
   }
   std::vector<Index> vertices = SeamFinder(mesh, requests).ends();
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sortUnique(vertices);
   vertices.erase(std::remove(vertices.begin(), vertices.end(), kInvalidIndex), vertices.end());
   return vertices;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/StraightRequests.h"
 
+#include "Base/Lists.h"
 #include "Mesh/BoundaryPlaces.h"
 #include "Mesh/Distance.h"
 
@@ -108,8 +109,7 @@ std::vector<Index> straightVertices(const Mesh& mesh, const std::vector<Straight
       }
     }
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sortUnique(vertices);
   return vertices;
 }
 

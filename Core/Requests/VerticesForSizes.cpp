@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/VerticesForSizes.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,19 +20,6 @@ namespace
 constexpr double kSpacingOfRegion = 0.15;
 constexpr double kSpacingInQuads = 1;
 
-std::vector<std::uint8_t> onConstraints(const Mesh& mesh)
-{
-  std::vector<std::uint8_t> on(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isConstrained(h))
-    {
-      on[mesh.origin[h]] = on[mesh.target(h)] = 1;
-    }
-  }
-  return on;
-}
-
 } // namespace
 
 std::vector<Index> verticesForSizes(const PreparedSurface& surface, double edgeLength)
@@ -41,7 +30,7 @@ std::vector<Index> verticesForSizes(const PreparedSurface& surface, double edgeL
     return all;
   }
   const Mesh& mesh = surface.mesh;
-  const std::vector<std::uint8_t> isOn = onConstraints(mesh);
+  const std::vector<std::uint8_t> isOn = constrainedVertices(mesh);
   for (const SizeRequest& size : surface.sizes)
   {
     const double reach = size.radius + std::abs(size.factor - 1) / kSizeGrowth * edgeLength;
@@ -62,8 +51,7 @@ std::vector<Index> verticesForSizes(const PreparedSurface& surface, double edgeL
     }
     all.insert(all.end(), kept.begin(), kept.end());
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sortUnique(all);
   return all;
 }
 

@@ -98,8 +98,7 @@ public:
   void operator()(const GuideRegion& region)
   {
     std::vector<Index> polygons = region.polygons;
-    std::sort(polygons.begin(), polygons.end());
-    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+    sortUnique(polygons);
     for (const Index polygon : polygons)
     {
       if (surface_.polygonOffsets[polygon] != surface_.polygonOffsets[polygon + 1])

@@ -26,7 +26,7 @@ public:
   /// The face of the whole under the centre of face f.
   Index faceUnder(const Mesh& images, Index f)
   {
-    const std::array<Vector3, 3> corners = cornersOf(images, f);
+    const std::array<Vector3, 3> corners = images.cornersOfFace(f);
     const Vector3 centre = (corners[0] + corners[1] + corners[2]) / 3;
     const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     if (!climb(centre, normal))
@@ -42,7 +42,7 @@ public:
   /// The corners of face f, each at the nearest corner of the face under it.
   FaceWeights weightsIn(Index found, const Mesh& images, Index f) const
   {
-    const std::array<Vector3, 3> corners = cornersOf(images, f);
+    const std::array<Vector3, 3> corners = images.cornersOfFace(f);
     FaceWeights weights{};
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -59,12 +59,6 @@ public:
   }
 
 private:
-  static std::array<Vector3, 3> cornersOf(const Mesh& mesh, Index f)
-  {
-    return { mesh.position[mesh.origin[3 * f]], mesh.position[mesh.origin[3 * f + 1]],
-      mesh.position[mesh.origin[3 * f + 2]] };
-  }
-
   /// From face to face, nearer to the place each time: a small part of the time of a search in the tree, where the
   /// place is beside the surface. False where that ends too far away or on the other side of a wall: the distance can
   /// have grown by no more than the way from where it was found.

@@ -325,11 +325,8 @@ std::vector<std::optional<double>> cutLengths(
             mesh.position[mesh.origin[3 * f + i]] + a / (a - b) * mesh.edgeVector(3 * f + i));
         }
       }
-      const Vector3 centre =
-        (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
-          mesh.position[mesh.origin[3 * f + 2]]) /
-        3;
-      if (*low >= -tolerance && *high <= tolerance && radial.dot(centre - axis.origin) > 0)
+      if (*low >= -tolerance && *high <= tolerance &&
+        radial.dot(mesh.middleOfFace(f) - axis.origin) > 0)
       {
         lengths[k].reset();
       }
