@@ -15,6 +15,8 @@ namespace quadrille
 
 constexpr int kFractionBits = 24;
 constexpr std::int64_t kOne = std::int64_t{ 1 } << kFractionBits;
+/// The determinant of a unit square.
+constexpr double kUnitArea = static_cast<double>(kOne) * static_cast<double>(kOne);
 
 // GCC spells its 128-bit type as an extension; the keyword keeps -Wpedantic builds of users quiet.
 __extension__ typedef __int128 Int128;

@@ -67,6 +67,9 @@ private:
 /// Throws Cancelled when the callback of the thread's run asks to stop. Does nothing on threads without a run.
 void poll();
 
+/// How many steps of a microsecond and more there are between polls.
+constexpr std::size_t kLongSteps = std::size_t{ 1 } << 8;
+
 /// poll() in a loop of short steps: every so many of them, a power of two.
 inline void pollNowAndThen(std::size_t step, std::size_t stepsBetween = std::size_t{ 1 } << 16)
 {

@@ -27,6 +27,8 @@ constexpr double kMetDistance = 0.3;
 constexpr double kMetCycle = 3;
 /// Connections and cycles: the same, from which on it is told of those that are met.
 constexpr double kToldLine = 0.5;
+/// Guides: a share of irregular vertices in the guided region above this is worth a word.
+constexpr double kNotableShare = 0.1;
 /// Sizes: the factor of the median; of the array of sizes, on average.
 constexpr double kMetFactor = 1.25;
 /// Edge lengths of the quads beyond which a drawn point lies off the surface, which is told.

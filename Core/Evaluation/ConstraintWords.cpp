@@ -17,9 +17,6 @@ namespace quadrille
 namespace
 {
 
-/// A share of a guided region above this is worth a word.
-constexpr double kNotableShare = 0.1;
-
 ConstraintWord worded(const char* kind, std::int64_t source, const ConstraintMeasure& measure)
 {
   return { measure, kind, source, false };

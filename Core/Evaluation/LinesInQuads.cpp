@@ -121,10 +121,9 @@ LinesInQuads::LinesInQuads(const QuadMesh& mesh, const NearestQuads& nearest)
   : mesh_(mesh), nearest_(nearest), chains_(mesh), edgeLength_(meanQuadEdge(mesh)),
     isEnd_(mesh.points.size(), 0)
 {
-  constexpr int kRegularEdges = 4;
   for (std::size_t p = 0; p < isEnd_.size(); ++p)
   {
-    isEnd_[p] = mesh.onBoundary[p] != 0 || mesh.valence[p] != kRegularEdges ? 1 : 0;
+    isEnd_[p] = mesh.onBoundary[p] != 0 || mesh.valence[p] != kRegularValence ? 1 : 0;
   }
   for (const QuadLine& line : mesh.lines)
   {

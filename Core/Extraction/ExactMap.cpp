@@ -13,7 +13,6 @@ namespace
 {
 
 constexpr std::size_t kMapChunk = 1 << 15;
-constexpr std::size_t kNamedFaces = 8;
 /// Base/FixedPoint.h: differences of coordinates below this have exact determinants.
 constexpr std::int64_t kCoordinateLimit = std::int64_t{ 1 } << 44;
 
@@ -21,7 +20,7 @@ void note(MapCheck& check, MapDefect kind, Index face)
 {
   ++check.count[kind];
   std::vector<Index>& named = check.faces[kind];
-  if (named.size() < kNamedFaces && (named.empty() || named.back() != face))
+  if (named.size() < kNamedPlaces && (named.empty() || named.back() != face))
   {
     named.push_back(face);
   }
@@ -44,7 +43,6 @@ void checkFace(const ExactMap& map, Index f, MapCheck& check)
   {
     note(check, kNotPositive, f);
   }
-  constexpr double kUnitArea = static_cast<double>(kOne) * static_cast<double>(kOne);
   check.area += 0.5 * std::abs(static_cast<double>(det)) / kUnitArea;
   const std::int64_t width = std::max({ a.u, b.u, c.u }) - std::min({ a.u, b.u, c.u });
   const std::int64_t height = std::max({ a.v, b.v, c.v }) - std::min({ a.v, b.v, c.v });
@@ -132,7 +130,7 @@ void merge(MapCheck& into, const MapCheck& from)
     into.count[kind] += from.count[kind];
     for (const Index f : from.faces[kind])
     {
-      if (into.faces[kind].size() < kNamedFaces)
+      if (into.faces[kind].size() < kNamedPlaces)
       {
         into.faces[kind].push_back(f);
       }

@@ -78,10 +78,9 @@ Status statusOf(const std::string& isNot, const std::string& problem, const MapC
 /// Of the first few.
 std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& points)
 {
-  constexpr std::size_t kNamedPoints = 8;
   const std::vector<Index> few(points.begin(),
-    points.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), kNamedPoints)));
-  return joined(few, kNamedPoints, [&](Index p) { return placeText(mesh.points[p]); });
+    points.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), kNamedPlaces)));
+  return joined(few, kNamedPlaces, [&](Index p) { return placeText(mesh.points[p]); });
 }
 
 /// Compares with the input surface, of whose boundary loops some are covered. Empty when the quad

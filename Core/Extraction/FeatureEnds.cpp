@@ -13,8 +13,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kNamedPlaces = 8;
-
 /// The two feature edges of a vertex go straight on where as many axes lie on both sides.
 /// start: a corner of the vertex on a feature; the whole fan is inside.
 bool goesStraightOn(const ExactMap& map, Index start)

@@ -17,9 +17,6 @@ namespace quadrille
 namespace
 {
 
-/// A curve that bends by more than this has a corner, where the quads have a point.
-constexpr double kCurveCorner = 0.5235987755982988; // 30 degrees
-
 /// Per half-edge of the boundary the one after it; kInvalidIndex inside.
 std::vector<Index> nextOnBoundaries(const Mesh& mesh)
 {

@@ -28,8 +28,6 @@ constexpr double kTriangleEdge = 1.12;
 constexpr double kShort = 4.0 / 5, kLong = 4.0 / 3;
 /// A change may make triangles worse than they are down to this shape only (see triangleShape).
 constexpr double kSoundTriangle = 0.4;
-/// Moves shorter than this share of the wanted length are not worth a search for the place below.
-constexpr double kLeastMove = 0.02;
 
 class FaceRemeshing
 {

@@ -19,8 +19,6 @@ namespace
 /// Moves may make quads worse than they are down to this shape only; points with a worse one look for a better place
 /// than the mean of their neighbours.
 constexpr double kSoundQuad = 0.6;
-/// Moves shorter than this share of the edges are not worth a search for the place below.
-constexpr double kLeastMove = 0.02;
 /// So many directions, and steps as shares of the mean length of their edges.
 constexpr int kSearchDirections = 8;
 constexpr std::array<double, 3> kSteps{ 0.4, 0.15, 0.05 };

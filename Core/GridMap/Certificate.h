@@ -12,6 +12,8 @@
 namespace quadrille
 {
 
+constexpr std::size_t kWorstFaces = 16;
+
 /// Why a map is, or is not, an integer-grid map. All counts are zero for a valid one.
 struct Certificate
 {
@@ -27,7 +29,7 @@ struct Certificate
   std::size_t fractionalTransitions = 0; ///< transitions whose translation is not whole
   double minimumDeterminant = 0; ///< smallest det(u, v edges), in quads^2 (twice the uv area)
   double area = 0;               ///< total uv area in quads: the number of quads to expect
-  std::vector<Index> worstFaces; ///< up to 16 faces, smallest determinant first
+  std::vector<Index> worstFaces; ///< up to kWorstFaces faces, smallest determinant first
 
   bool seamless() const
   {

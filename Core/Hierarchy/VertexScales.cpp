@@ -70,13 +70,12 @@ std::vector<double> componentAreas(const Mesh& fine, DisjointSets& components, i
 /// Whether a connected mesh surely is no small component, by the faces up to where that is clear.
 bool isSurelyLarge(const Mesh& fine, double edgeLength)
 {
-  constexpr double kSurely = 2 * kQuadsOfSmallTriangulation;
   double doubledArea = 0;
   for (Index h = 0; h < fine.halfEdgeCount(); h += 3)
   {
     pollNowAndThen(h);
     doubledArea += fine.edgeVector(h).cross(fine.edgeVector(h + 1)).norm();
-    if (doubledArea > 2 * kSurely * edgeLength * edgeLength)
+    if (doubledArea > 2 * kSurelyNotSmall * edgeLength * edgeLength)
     {
       return true;
     }

@@ -15,9 +15,6 @@ namespace quadrille
 namespace
 {
 
-/// Cocircular points, which whole displacements make often, must not flip forever.
-constexpr double kDelaunaySlack = -1e-9;
-
 double orientedAngle(const Vector2& a, const Vector2& b)
 {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));

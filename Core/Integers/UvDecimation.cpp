@@ -14,9 +14,6 @@ namespace quadrille
 namespace
 {
 
-/// Edges count as Delaunay when the cotangents opposite to them sum to more than this; below zero, so that
-/// rounding cannot make cocircular vertices flip forever.
-constexpr double kUvDelaunaySlack = -1e-9;
 /// Stars up to this size go first: large stars cost more and leave worse triangles behind.
 constexpr std::size_t kSmallStar = 8;
 
@@ -78,7 +75,7 @@ private:
   bool wantsFlip(Index h) const
   {
     return !mesh_.isFixed(h) &&
-      cotangentOpposite(h) + cotangentOpposite(mesh_.twin[h]) < kUvDelaunaySlack &&
+      cotangentOpposite(h) + cotangentOpposite(mesh_.twin[h]) < kDelaunaySlack &&
       editor_.canFlip(h);
   }
 

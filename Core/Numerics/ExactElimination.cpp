@@ -16,9 +16,6 @@ namespace quadrille
 namespace
 {
 
-/// Rows of a few terms that are gone through before the next look out for a stop.
-constexpr std::size_t kRowsBetweenPolls = 4096;
-
 class Overflow
 {
 };
@@ -102,7 +99,7 @@ public:
   {
     for (Index r = 0; r < rows_.size(); ++r)
     {
-      pollNowAndThen(r, kRowsBetweenPolls);
+      pollNowAndThen(r, kLongSteps);
       normalize(rows_[r]);
       for (const auto& term : rows_[r])
       {
@@ -227,7 +224,7 @@ private:
     basis.step.assign(basis.free.size(), 1);
     for (std::size_t v = 0; v < basis.rows.size(); ++v)
     {
-      pollNowAndThen(v, kRowsBetweenPolls);
+      pollNowAndThen(v, kLongSteps);
       const ExactBasis::Row& row = basis.rows[v];
       for (const auto& [id, numerator] : row.numerators)
       {

@@ -14,9 +14,6 @@ namespace quadrille
 namespace
 {
 
-/// Each takes about a microsecond.
-constexpr std::size_t kTrianglesBetweenPolls = 4096;
-
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 void checkSizes(const UntangleProblem& problem)
@@ -67,7 +64,7 @@ void ReducedTriangles::collectUnknowns(const UntangleProblem& problem)
   std::vector<std::pair<int, Jacobian>> terms;
   for (std::size_t t = 0; t < count; ++t)
   {
-    pollNowAndThen(t, kTrianglesBetweenPolls);
+    pollNowAndThen(t, kLongSteps);
     terms.clear();
     for (int i = 0; i < 6; ++i)
     {
@@ -110,7 +107,7 @@ void ReducedTriangles::buildPattern()
   std::vector<std::size_t> next(placeBegin.begin(), placeBegin.end() - 1);
   for (std::size_t t = 0; t < triangles(); ++t)
   {
-    pollNowAndThen(t, kTrianglesBetweenPolls);
+    pollNowAndThen(t, kLongSteps);
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {
       place[next[unknown_[a]]++] = a;
@@ -122,7 +119,7 @@ void ReducedTriangles::buildPattern()
   std::vector<int> seenBy(count, -1);
   for (int j = 0; j < count; ++j)
   {
-    pollNowAndThen(static_cast<std::size_t>(j), kTrianglesBetweenPolls);
+    pollNowAndThen(static_cast<std::size_t>(j), kLongSteps);
     std::vector<int>& column = columns[j];
     column.push_back(j);
     for (std::size_t i = placeBegin[j]; i < placeBegin[j + 1]; ++i)
@@ -149,7 +146,7 @@ void ReducedTriangles::buildPattern()
   slotBegin_.assign(1, 0);
   for (std::size_t t = 0; t < triangles(); ++t)
   {
-    pollNowAndThen(t, kTrianglesBetweenPolls);
+    pollNowAndThen(t, kLongSteps);
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {
       const std::vector<int>& column = columns[unknown_[a]];
@@ -169,7 +166,7 @@ void ReducedTriangles::jacobians(const Eigen::VectorXd& y, std::vector<Jacobian>
   result.resize(triangles());
   for (std::size_t t = 0; t < triangles(); ++t)
   {
-    pollNowAndThen(t, kTrianglesBetweenPolls);
+    pollNowAndThen(t, kLongSteps);
     Jacobian jacobian = constant_[t];
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {
@@ -187,7 +184,7 @@ void ReducedTriangles::assemble(
   std::fill(values, values + hessian_.nonZeros(), 0.0);
   for (std::size_t t = 0; t < triangles(); ++t)
   {
-    pollNowAndThen(t, kTrianglesBetweenPolls);
+    pollNowAndThen(t, kLongSteps);
     const int* slot = slot_.data() + slotBegin_[t];
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {

@@ -105,7 +105,7 @@ void fixNear(const Mesh& mesh, const std::vector<Vector3>& places, double radius
 {
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
-    pollNowAndThen(v, 1024);
+    pollNowAndThen(v, kLongSteps);
     const auto isNear = [&](const Vector3& p)
     { return (mesh.position[v] - p).squaredNorm() < radius * radius; };
     if (fixed[v] == 0 && std::any_of(places.begin(), places.end(), isNear))

@@ -19,8 +19,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kMostWorstFaces = 16; ///< see Certificate
-
 Index shifted(Index id, Index shift)
 {
   return id == kInvalidIndex ? id : id + shift;
@@ -76,7 +74,7 @@ void addCertificate(const Certificate& part, Index faces, Certificate& all)
   all.fractionalTransitions += part.fractionalTransitions;
   all.area += part.area;
   appendShifted(part.worstFaces, faces, all.worstFaces);
-  all.worstFaces.resize(std::min(all.worstFaces.size(), kMostWorstFaces));
+  all.worstFaces.resize(std::min(all.worstFaces.size(), kWorstFaces));
 }
 
 void addLevel(Level part, Index vertices, Index faces, Level& all)

@@ -23,7 +23,6 @@ constexpr double kQuadsOfFewHandles = 64;
 /// From 512 handles on, that of twice as many before any was cut, the exact equations of a map take minutes: only where
 /// the area is worth the block.
 constexpr double kLargeBlock = 8192;
-constexpr double kLargeBlockBefore = 16384;
 constexpr double kWorthOfLargeBefore = 2;
 
 /// Of a surface that has no component of more handles than quads go round: an edit does not count them again.
@@ -51,7 +50,7 @@ Status judgeHandles(const SizedSurface& sized, bool isCut, int threads, ResultSt
       const double block = component.block;
       return block > kQuadsOfFewHandles &&
         (isCut ? block > kMostBlockWorth * worth || block > kLargeBlock
-               : block > kLargeBlockBefore && block > kWorthOfLargeBefore * worth);
+               : block > 2 * kLargeBlock && block > kWorthOfLargeBefore * worth);
     });
   if (found == small.each.end())
   {

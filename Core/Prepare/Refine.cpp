@@ -37,9 +37,6 @@ constexpr double kFacesPerFaceOfSmall = 160;
 constexpr double kSmallEnd = 4e6;
 constexpr double kMostRefinedFaces = 1e8;
 
-/// A connected surface with the area of so many squares of the maximum edge length is not small.
-constexpr double kSurelyNotSmall = 2 * kQuadsOfSmallTriangulation;
-
 /// Of a large surface so few new faces stay at its end: where they lie costs nothing then, and to order it anew does.
 constexpr Index kLargeSurface = Index{ 1 } << 18;
 constexpr Index kFewAmong = 256;

@@ -3,6 +3,7 @@
 #include "Quads/QuadChains.h"
 
 #include "Mesh/Distance.h"
+#include "Mesh/Requests.h"
 
 #include <algorithm>
 #include <utility>
@@ -58,7 +59,7 @@ std::optional<Index> QuadChains::straightOn(Index h, ChainSide side) const
 
 bool QuadChains::isPassed(Index point) const
 {
-  return quads_.onBoundary[point] == 0 && quads_.valence[point] == kRegularEdges;
+  return quads_.onBoundary[point] == 0 && quads_.valence[point] == kRegularValence;
 }
 
 std::vector<Index> QuadChains::between(Index a, Index b) const

@@ -6,6 +6,7 @@
 #include "Base/Error.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Mesh/Requests.h"
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>
@@ -25,8 +26,6 @@ enum EdgeMark : std::uint8_t
   kSeparatrix = 4
 };
 
-constexpr int kRegular = 4;
-
 /// A fan of quads round a point.
 struct Vertex
 {
@@ -36,7 +35,7 @@ struct Vertex
   bool onBoundary = false;
 
   /// The end of separatrices: on the boundary three edges go on straight, and two make a corner.
-  bool isIrregular() const { return onBoundary ? valence > 3 : valence != kRegular; }
+  bool isIrregular() const { return onBoundary ? valence > 3 : valence != kRegularValence; }
 };
 
 class LayoutBuilder
@@ -168,7 +167,7 @@ private:
   bool goesOn(Index h) const
   {
     const Vertex& vertex = vertexAhead(h);
-    return !vertex.onBoundary && vertex.valence == kRegular;
+    return !vertex.onBoundary && vertex.valence == kRegularValence;
   }
   /// The half-edge straight on, where goesOn(h).
   Index straight(Index h) const { return nextInQuad(twin(nextInQuad(h))); }

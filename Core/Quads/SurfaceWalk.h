@@ -12,6 +12,10 @@
 namespace quadrille
 {
 
+/// A constrained curve that bends by more than this at a vertex of the mesh has a corner there, where the quads have a
+/// point: 30 degrees.
+constexpr double kCurveCorner = 0.5235987755982988;
+
 struct SurfacePoint
 {
   Index face = kInvalidIndex;

@@ -145,7 +145,6 @@ private:
     }
     double irregularShare = 0;
     ConstraintMeasure measure = measures_.guide(part_->guided, mostPlaces_, &irregularShare);
-    constexpr double kNotableShare = 0.1;
     if (!measure.isMet && irregularShare > kNotableShare)
     {
       measure.reason +=

@@ -15,8 +15,6 @@ namespace
 
 /// So often a segment of a line is halved towards the cut that it crosses.
 constexpr int kHalvingsToCut = 48;
-/// Of a point on the part's border beyond its quads: one of valence n + 2 has n quads there.
-constexpr int kBesideQuads = 2;
 
 /// A piece of a line that lies in one part, taken to the part that is made.
 struct PieceInPart

@@ -24,8 +24,6 @@ namespace
 
 /// Guides of both sides that differ by more contradict each other.
 const double kGuidesAgree = radians(10);
-/// Of a point on the part's border beyond its quads: one of valence n + 2 has n quads there.
-constexpr int kBesideQuads = 2;
 /// So that a point on an axis of order 2 has no two quads that share two edges.
 constexpr int kQuadsAtHalfTurn = 2;
 

@@ -14,6 +14,9 @@
 namespace quadrille
 {
 
+/// Of a point on the part's border beyond its quads: one of valence n + 2 has n quads there.
+constexpr int kBesideQuads = 2;
+
 struct PartTask
 {
   const SearchedSurface& whole; ///< with its guides, valences and sizes

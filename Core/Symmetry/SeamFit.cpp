@@ -93,11 +93,10 @@ private:
         add(line.b, role);
       }
     }
-    constexpr int kRegular = 4;
     for (std::size_t p = 0; p < count; ++p)
     {
       // Where the map has it, and where it may have been asked for.
-      const bool isIrregular = quads_.onBoundary[p] == 0 && quads_.valence[p] != kRegular;
+      const bool isIrregular = quads_.onBoundary[p] == 0 && quads_.valence[p] != kRegularValence;
       role_[p] = isIrregular ? Role::Stays : role_[p];
     }
     for (const SamePoints& pair : pairs_)
