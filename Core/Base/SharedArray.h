@@ -167,13 +167,6 @@ public:
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);
   }
-  /// Before all others.
-  void prepend(std::size_t count, const T& value)
-  {
-    std::vector<T>& values = own();
-    values.insert(values.begin(), count, value);
-    look();
-  }
   /// The elements as a vector of the caller's, without a copy where nobody shares them; empty afterwards.
   std::vector<T> take()
   {

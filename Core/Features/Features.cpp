@@ -104,11 +104,6 @@ bool isDesigned(const Mesh& mesh, const FaceNormals& normals, int threads)
 
 } // namespace
 
-void markFeaturesByAngle(Mesh& mesh, double angle, int threads, double precision)
-{
-  markSharpEdges(mesh, FaceNormals(mesh, precision, threads), angle, threads);
-}
-
 std::vector<Vector3> normalsBeside(
   const Mesh& mesh, const std::vector<Index>& halfEdges, int threads, double precision)
 {

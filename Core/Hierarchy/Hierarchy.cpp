@@ -224,16 +224,4 @@ std::vector<Index> onFinest(const std::vector<Index>& vertices, const Level& lev
   return finest;
 }
 
-Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
-{
-  HierarchyOptions phase1 = options;
-  if (isLocalChange(fine, fine.sizing, options.keepVertices.size()))
-  {
-    phase1.keepVertices.clear();
-  }
-  Redecimation levels(fine, fineHash, phase1);
-  levels.update(options);
-  return levels.take();
-}
-
 } // namespace quadrille

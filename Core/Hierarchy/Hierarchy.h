@@ -103,7 +103,8 @@ struct Hierarchy
 class Redecimation
 {
 public:
-  /// Phase 1 with the vertices to keep of the options. Throws as buildHierarchy does.
+  /// Phase 1 with the vertices to keep of the options. Throws InvalidInput when s is not positive and finite, or the
+  /// budget is 0 for a cost that knows no curvature. Progress and cancel through the options.
   Redecimation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options);
   ~Redecimation();
   Redecimation(Redecimation&&) noexcept;
@@ -141,10 +142,5 @@ private:
 /// Whether bringing so many vertices back, and making quads smaller where the mesh has smaller sizes than these, is
 /// less work than another phase 1 that knows them.
 bool isLocalChange(const Mesh& fine, const std::vector<float>& sizesBefore, std::size_t kept);
-
-/// Both phases; vertices to keep come back after phase 1 where they are a local change. Throws InvalidInput when s is
-/// not positive and finite, or the budget is 0 for a cost that knows no curvature. Progress
-/// and cancel through the options.
-Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options);
 
 } // namespace quadrille

@@ -25,7 +25,7 @@ class IntermediateLevel
 {
 public:
   /// Phase 1 with the vertices to keep of the options. hierarchy gets level and log, and stays for as long as this
-  /// object does. Throws as buildHierarchy() does.
+  /// object does. Throws as Redecimation does.
   IntermediateLevel(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options,
     Hierarchy& hierarchy);
 

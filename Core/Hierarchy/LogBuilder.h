@@ -53,12 +53,6 @@ public:
     return removed;
   }
 
-  /// The same of one block.
-  std::size_t addRound(const RecordWriter& block)
-  {
-    return addRound(std::vector<Block>{ Block(block) });
-  }
-
   /// What was added until now leads to the intermediate level.
   void endIntermediate() { log_.intermediateRounds = log_.rounds.size(); }
 

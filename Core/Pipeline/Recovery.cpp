@@ -146,15 +146,4 @@ bool isLastResort(const Plan& plan)
     { return !plan.made.empty() && plan.made.back() == strategy.which; });
 }
 
-std::vector<std::string> recoverySteps()
-{
-  std::vector<std::string> names;
-  const auto add = [&](const Strategy& strategy)
-  { names.emplace_back(tryRow(strategy.which).name); };
-  std::for_each(kForMaps.begin(), kForMaps.end(), add);
-  std::for_each(kForRounds.begin(), kForRounds.end(), add);
-  std::for_each(kLastResort.begin(), kLastResort.end(), add);
-  return names;
-}
-
 } // namespace quadrille

@@ -9,8 +9,6 @@
 #include "Pipeline/Plan.h"
 
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace quadrille
 {
@@ -24,8 +22,5 @@ std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLas
 
 /// Whether the plan is one of those that are made where nothing else is left.
 bool isLastResort(const Plan& plan);
-
-/// Of the plans of a run, the names of the steps that made them, in the order in which they are tried.
-std::vector<std::string> recoverySteps();
 
 } // namespace quadrille

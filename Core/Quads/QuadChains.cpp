@@ -122,16 +122,4 @@ std::vector<std::vector<Index>> QuadChains::closedNear(
   return chains;
 }
 
-Index QuadChains::nearestPoint(const Vector3& place) const
-{
-  Index best = 0;
-  for (Index p = 1; p < quads_.points.size(); ++p)
-  {
-    best = (quads_.points[p] - place).squaredNorm() < (quads_.points[best] - place).squaredNorm()
-      ? p
-      : best;
-  }
-  return best;
-}
-
 } // namespace quadrille

@@ -41,8 +41,6 @@ public:
   /// the first point stands at the end again.
   std::vector<std::vector<Index>> closedNear(
     const std::vector<Vector3>& polyline, double distance) const;
-  /// The point nearest to a place.
-  Index nearestPoint(const Vector3& place) const;
 
 private:
   std::optional<Index> straightOn(Index h, ChainSide side) const;

@@ -69,9 +69,8 @@ TEST(SharedArray, AnEmptyOneIsAnEmptyVector)
   EXPECT_TRUE(array.vector().empty());
   EXPECT_EQ(array.edit(), nullptr);
   array.append({ 1, 2 });
-  array.prepend(2, 0);
   array.change([](std::vector<int>& values) { values.push_back(3); });
-  EXPECT_EQ(array.vector(), (std::vector<int>{ 0, 0, 1, 2, 3 }));
+  EXPECT_EQ(array.vector(), (std::vector<int>{ 1, 2, 3 }));
   array.clear();
   EXPECT_EQ(array, SharedArray<int>());
 }

@@ -115,9 +115,8 @@ TEST(CreaseCurves, NoisyAndFacettedBallsHaveNone)
     for (const unsigned seed : { 1U, 2U, 3U })
     {
       Mesh mesh = noisy(ball, deviation, seed);
-      Mesh sharp = mesh;
-      markFeaturesByAngle(sharp, kSharp, 1);
-      ASSERT_GT(featuresOf(sharp), 20u); // else there is nothing to judge
+      ASSERT_GT(
+        featuresOf(test::markFeatures(mesh, kSharp)), 20u); // else there is nothing to judge
       judge(mesh, 0.15);
       EXPECT_EQ(featuresOf(mesh), 0u) << deviation << ' ' << seed;
     }

@@ -26,8 +26,7 @@ struct Counts
 
 Counts countEdges(const Mesh& mesh, int threads = 1)
 {
-  Mesh sharp = mesh;
-  markFeaturesByAngle(sharp, kAngle, 1);
+  const Mesh sharp = test::markFeatures(mesh, kAngle);
   Mesh creases = mesh;
   markCreases(creases, kAngle, threads);
   return { test::featureHalfEdges(sharp) / 2, test::featureHalfEdges(creases) / 2 };
@@ -148,8 +147,7 @@ TEST(Creases, ARidgeThroughNoiseStays)
 
 TEST(Creases, WhatWasAskedForStays)
 {
-  Mesh mesh = test::isosurface(6, test::waves);
-  markFeaturesByAngle(mesh, kAngle, 1);
+  Mesh mesh = test::markFeatures(test::isosurface(6, test::waves), kAngle);
   for (std::uint8_t& flags : mesh.flags.editAll())
   {
     flags |= (flags & kFeatureEdge) != 0 ? kRequestedFeature : 0;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BothPhases.h"
 #include "Hierarchy/FreeStar.h"
 #include "TestMeshes.h"
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
+#include "BothPhases.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/SurfaceEdit.h"
 #include "MeshInput.h"

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BothPhases.h"
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Hierarchy/UniformDecimation.h"
@@ -17,6 +18,7 @@ namespace quadrille
 namespace
 {
 
+using test::buildHierarchy;
 using test::markFeatures;
 using test::unitCube;
 

@@ -136,7 +136,8 @@ TEST(ThinnedSurface, AnOpenSurfaceKeepsItsBoundary)
 TEST(ThinnedSurface, SourcesAreThoseOfTheInput)
 {
   SurfaceInput input = toInput(torus(120, 60, 2, 1));
-  input.points.prepend(1, Vector3(100, 100, 100));
+  input.points.change(
+    [](std::vector<Vector3>& points) { points.insert(points.begin(), Vector3(100, 100, 100)); });
   for (Index& id : input.polygonPoints.editAll())
   {
     ++id;

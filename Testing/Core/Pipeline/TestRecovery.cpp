@@ -110,13 +110,6 @@ std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centre
   return near;
 }
 
-TEST(Recovery, StepsAreTriedInThisOrder)
-{
-  EXPECT_EQ(recoverySteps(),
-    std::vector<std::string>(
-      { "more freedom", "room for curves", "counterparts", "fewer features", "more quads" }));
-}
-
 // The plan that a run begins with.
 
 TEST(Recovery, FirstPlanTakesBudgetAndNumberFromTheOptions)

@@ -217,7 +217,8 @@ TEST(Repair, AMoebiusStripIsRefusedByName)
 TEST(Repair, IsolatedPointsGo)
 {
   SurfaceInput input = toInput(sphere(1));
-  input.points.prepend(3, Vector3(9, 9, 9));
+  input.points.change(
+    [](std::vector<Vector3>& points) { points.insert(points.begin(), 3, Vector3(9, 9, 9)); });
   for (Index& v : input.polygonPoints.editAll())
   {
     v += 3;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Base/FixedPoint.h"
+#include "BothPhases.h"
 #include "GridMap/MapCheck.h"
 #include "Hierarchy/Hierarchy.h"
 #include "TestMeshes.h"

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// The replay of smooth seamless maps on every model there is: exact to the bit.
+#include "BothPhases.h"
 #include "CrossField/CrossField.h"
 #include "Features/FeatureFilter.h"
 #include "GridMap/SeamlessMap.h"
