@@ -169,7 +169,7 @@ private:
     UntanglingOptions untangling;
     untangling.fixedVertices = options.fixedVertices;
     untangling.threads = threads_;
-    met_.inverted = untangleQuads(mesh_, quads_, untangling).invertedAfter;
+    met_.inverted = untangleQuads(mesh_, quads_, untangling);
     quads_.lines.insert(quads_.lines.end(), joints.begin(), joints.end());
   }
 

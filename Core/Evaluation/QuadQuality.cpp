@@ -45,15 +45,12 @@ void countValences(const QuadTopology& topology, QuadQuality& quality)
   for (std::size_t p = 0; p < topology.valence.size(); ++p)
   {
     const int valence = topology.valence[p];
-    if (valence == 0)
+    if (valence == 0 || topology.onBoundary[p] != 0)
     {
       continue;
     }
-    const bool boundary = topology.onBoundary[p] != 0;
-    const int regular = boundary ? 3 : 4;
-    ++(boundary ? quality.boundaryValences : quality.interiorValences)[valence];
-    quality.irregularVertices += !boundary && valence != regular ? 1 : 0;
-    quality.indexSum += regular - valence;
+    ++quality.interiorValences[valence];
+    quality.irregularVertices += valence != 4 ? 1 : 0;
   }
 }
 

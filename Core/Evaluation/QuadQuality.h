@@ -32,11 +32,7 @@ struct QuadQuality
   bool closed = false;
 
   std::map<int, std::size_t> interiorValences; ///< number of interior vertices per valence
-  std::map<int, std::size_t> boundaryValences;
-  std::size_t irregularVertices = 0; ///< interior ones with a valence other than 4
-  /// sum over interior vertices of 4 - valence plus over boundary ones of 3 - valence: 4 chi for
-  /// every manifold quad mesh.
-  long long indexSum = 0;
+  std::size_t irregularVertices = 0;           ///< interior ones with a valence other than 4
 
   Statistics scaledJacobian;            ///< per quad, see scaledJacobian()
   std::size_t nonPositiveJacobians = 0; ///< quads with scaled Jacobian <= 0

@@ -12,6 +12,7 @@ namespace quadrille
 namespace
 {
 
+/// Of sums of floating-point numbers.
 constexpr std::size_t kMapChunk = 1 << 15;
 /// Base/FixedPoint.h: differences of coordinates below this have exact determinants.
 constexpr std::int64_t kCoordinateLimit = std::int64_t{ 1 } << 44;

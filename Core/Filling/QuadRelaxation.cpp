@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Lists.h"
+#include "Quads/QuadMesh.h"
 #include "Quads/QuadShape.h"
 
 #include <algorithm>

@@ -22,6 +22,8 @@ constexpr double kLimit = 1 << 20;
 constexpr double kSnapTolerance = 0.1;
 /// Rotations under which the images agree by so much more or less are equally good.
 constexpr double kAmbiguity = 1e-3;
+/// A feature or boundary edge is put on the nearest integer isoline when both ends are nearer than this, in quads.
+constexpr double kIsolineTolerance = 1e-3;
 
 std::string edgeName(Index h)
 {
@@ -161,7 +163,7 @@ class Snapper
 public:
   Snapper(const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
     : mesh_(mesh), uv_(uv), options_(options), ambiguity_(kAmbiguity + 4 * options.valueError),
-      isolineTolerance_(std::max(options.isolineTolerance, 4 * options.valueError))
+      isolineTolerance_(std::max(kIsolineTolerance, 4 * options.valueError))
   {
   }
 

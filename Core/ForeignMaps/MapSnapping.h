@@ -15,9 +15,6 @@ namespace quadrille
 
 struct SnapOptions
 {
-  /// A feature or boundary edge is put on the nearest integer isoline when both ends are nearer
-  /// than this; in quads, in [0, 0.5).
-  double isolineTolerance = 1e-3;
   /// How far the values may be from what was meant, in quads, in [0, 0.02]; widens the tolerances.
   /// Single precision has 2^-24 times the largest value.
   double valueError = 0;

@@ -38,6 +38,8 @@ constexpr double kBytesOfTriangle = 900;
 constexpr double kOperationsPerRoot = 60;
 constexpr double kOperationsPerSecond = 5e9;
 constexpr double kUsualSteps = 4;
+/// Multiplications of a factorization, at most: about 40 s on one thread, a surface of about two million triangles.
+constexpr double kMostOperations = 2e11;
 /// From here on these estimates are asked before the exact ones.
 constexpr double kManyFaces = 3e6;
 /// Steps in which an inset boundary gets to its place, at most; where its vertices can take whole steps it is one.
@@ -288,7 +290,7 @@ void MapRelaxation::relaxCrushed()
     bool moved = false;
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {
-      pollNowAndThen(i, 256);
+      pollNowAndThen(i, kLongSteps);
       const Index v = vertices[i];
       if (free_[v][0] != 0 || free_[v][1] != 0)
       {
@@ -306,7 +308,7 @@ void MapRelaxation::relaxCrushed()
 bool MapRelaxation::check(double bytes, double operations, RelaxResult& result) const
 {
   result.bytes = bytes;
-  if (bytes <= options_.maximumBytes && operations <= options_.maximumOperations)
+  if (bytes <= options_.maximumBytes && operations <= kMostOperations)
   {
     return true;
   }
@@ -341,7 +343,6 @@ bool MapRelaxation::makeSolver(RelaxResult& result)
 RelaxResult MapRelaxation::run()
 {
   RelaxResult result;
-  result.heldVertices = held_;
   const double area = referenceArea();
   const double scale = area > 0 ? 1 / (kIsometry * area) : 0;
   double current = totalEnergy(false);

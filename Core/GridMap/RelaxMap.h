@@ -49,8 +49,6 @@ struct RelaxResult
   double before = 0; ///< mean of the energy over the area, 1 where the map is an isometry
   double after = 0;
   int steps = 0;
-  std::size_t heldVertices =
-    0;              ///< that stay because a triangle there is not positive or a transition unclear
   double bytes = 0; ///< of a factorization
 };
 

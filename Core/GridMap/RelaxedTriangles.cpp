@@ -65,7 +65,6 @@ RelaxedTriangles::RelaxedTriangles(const Mesh& mesh, const std::vector<std::uint
 
 void RelaxedTriangles::hold(Index v)
 {
-  held_ += free_[v][0] != 0 || free_[v][1] != 0 ? 1 : 0;
   free_[v] = { 0, 0 };
 }
 

@@ -88,7 +88,6 @@ protected:
   std::vector<FixedVec2>
     inset_;         ///< empty or #V: what vertices have yet to move, along axes that are not free
   double rise_ = 0; ///< by which a step may raise the energy of a crushed triangle; 0: any
-  std::size_t held_ = 0;
 
 private:
   void lock(const std::vector<std::uint8_t>& integerVertex);

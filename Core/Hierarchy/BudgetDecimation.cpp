@@ -261,7 +261,6 @@ BudgetResult BudgetDecimation::run()
     }
   }
   result.notice = notice();
-  report_.entries = cache_.entries();
   report_.bytes = cache_.bytes();
   result.cache = report_;
   result.curvatureShift = moved_ / curvature_;

@@ -79,7 +79,6 @@ struct CacheReport
 {
   std::size_t lookups = 0; ///< triangulations of stars that were asked for
   std::size_t hits = 0;    ///< those that the cache knew
-  std::size_t entries = 0; ///< afterwards
   std::size_t bytes = 0;   ///< afterwards
 };
 

@@ -234,13 +234,13 @@ bool VertexRemoval::triangulate(const RemovalGuards& guards)
     triangleCount_ = 0;
     if (splits())
     {
-      if (!triangulatePolygon(polygon.data(), curveEnd_ + 1, guards) ||
-        !triangulatePolygon(polygon.data() + curveEnd_, ringSize_ - curveEnd_ + 1, guards))
+      if (!triangulatePolygon(polygon.data(), curveEnd_ + 1) ||
+        !triangulatePolygon(polygon.data() + curveEnd_, ringSize_ - curveEnd_ + 1))
       {
         return false;
       }
     }
-    else if (!triangulatePolygon(polygon.data(), ringSize_, guards))
+    else if (!triangulatePolygon(polygon.data(), ringSize_))
     {
       return false;
     }
@@ -257,7 +257,7 @@ bool VertexRemoval::triangulate(const RemovalGuards& guards)
   return false;
 }
 
-bool VertexRemoval::triangulatePolygon(const int* polygon, int count, const RemovalGuards& guards)
+bool VertexRemoval::triangulatePolygon(const int* polygon, int count)
 {
   const auto ringAt = [&](int i) { return polygon[index(i)]; };
   for (int i = 0; i + 1 < count; ++i)
@@ -285,7 +285,7 @@ bool VertexRemoval::triangulatePolygon(const int* polygon, int count, const Remo
         {
           continue;
         }
-        const double cost = below + triangleCost(a, b, c, guards);
+        const double cost = below + triangleCost(a, b, c);
         if (cost < best)
         {
           best = cost;
@@ -315,7 +315,7 @@ void VertexRemoval::collectTriangles(const int* polygon, int i, int j)
     static_cast<std::uint8_t>(polygon[index(k)]), static_cast<std::uint8_t>(polygon[index(j)]) };
 }
 
-double VertexRemoval::triangleCost(int a, int b, int c, const RemovalGuards& guards) const
+double VertexRemoval::triangleCost(int a, int b, int c) const
 {
   const Vector2 ab2 = planar_[index(b)] - planar_[index(a)];
   const Vector2 ac2 = planar_[index(c)] - planar_[index(a)];
@@ -337,7 +337,7 @@ double VertexRemoval::triangleCost(int a, int b, int c, const RemovalGuards& gua
   {
     return kInfinity;
   }
-  return harmonic + (anyConstrained_ ? constraintCost(a, b, c, guards) : 0);
+  return harmonic + (anyConstrained_ ? constraintCost(a, b, c) : 0);
 }
 
 bool VertexRemoval::normalFits(int a, int b, int c, const Vector3& n, double least) const
@@ -356,7 +356,7 @@ bool VertexRemoval::normalFits(int a, int b, int c, const Vector3& n, double lea
   return fits(starFace(a, b)) && fits(starFace(b, c)) && fits(starFace(c, a));
 }
 
-double VertexRemoval::constraintCost(int a, int b, int c, const RemovalGuards& guards) const
+double VertexRemoval::constraintCost(int a, int b, int c) const
 {
   const auto constrained = [&](int x, int y)
   {

@@ -43,9 +43,6 @@ struct RemovalGuards
   bool allowOldFolds = false;
   int minimumValence = 4; ///< of free ring vertices, unless they had less before
   int maximumValence = 16;
-  /// Allow faces whose three vertices lie on constrained curves (never two on one by a chord) where the star has
-  /// none yet.
-  bool allowConstrainedFaces = false;
   double curveTolerance = 0; ///< distance by which a curve may deviate from the input's
 };
 
@@ -132,11 +129,11 @@ private:
   void forbid(int x, int y);
   double worstDeviation() const;
   bool triangulate(const RemovalGuards& guards);
-  bool triangulatePolygon(const int* polygon, int count, const RemovalGuards& guards);
+  bool triangulatePolygon(const int* polygon, int count);
   void collectTriangles(const int* polygon, int i, int j);
-  double triangleCost(int a, int b, int c, const RemovalGuards& guards) const;
+  double triangleCost(int a, int b, int c) const;
   bool normalFits(int a, int b, int c, const Vector3& n, double least) const;
-  double constraintCost(int a, int b, int c, const RemovalGuards& guards) const;
+  double constraintCost(int a, int b, int c) const;
   bool forbidExistingDiagonals();
   bool closesTetrahedron() const;
   bool triangulateStar(const RemovalGuards& guards);

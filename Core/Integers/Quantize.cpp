@@ -27,6 +27,8 @@ namespace
 /// where 12 is not enough the failures seen came back at every scale up to 256, so this leaves some room and ends
 /// there.
 constexpr double kMaximumScale = 32;
+/// By what factor sizes may grow for that the integers become valid.
+constexpr double kMostRefinement = 8;
 
 void checkInput(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv)
 {
@@ -107,11 +109,10 @@ void integrate(const IntegerMap& map, const std::vector<std::uint8_t>& integer, 
 /// In quads.
 double uvArea(const UvMesh& mesh)
 {
-  constexpr double kSquaredOne = static_cast<double>(kOne) * static_cast<double>(kOne);
   double area = 0;
   for (Index f = 0; f < mesh.alive.size(); ++f)
   {
-    area += mesh.alive[f] ? 0.5 / kSquaredOne * static_cast<double>(mesh.faceDeterminant(f)) : 0.0;
+    area += mesh.alive[f] ? 0.5 / kUnitArea * static_cast<double>(mesh.faceDeterminant(f)) : 0.0;
   }
   return area;
 }
@@ -340,7 +341,7 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   editor.undoTo(0, locked.keep);
   joinCharts(uvMesh);
   result.uv = uvMesh.uv;
-  if (result.refinement > options.maximumRefinement)
+  if (result.refinement > kMostRefinement)
   {
     result.status = tooFine(result.refinement);
   }

@@ -16,7 +16,6 @@ namespace quadrille
 
 struct QuantizeOptions
 {
-  double maximumRefinement = 8; ///< the integers may grow by this factor when nothing else is valid
   /// In [0, 1]: the integers come near to so many times the seamless map. 0: as near to nothing as a valid map can.
   double pull = 1;
   /// s, in units of the mesh: how far edges may leave curves follows it, see sharesOfCurves. 0: they do not count.

@@ -4,6 +4,7 @@
 
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
+#include "Base/Types.h"
 
 #include <cmath>
 #include <utility>

@@ -26,6 +26,10 @@ constexpr double kStalled = 1e-5;
 /// million operations of that are. Fitted to seven maps, which they meet within 30 %.
 constexpr double kWorkOfTriangle = 0.35;
 constexpr double kWorkOfMegaflop = 380;
+/// det J below this fraction counts as inverted (the caller snaps to a grid afterwards).
+constexpr double kLeastJacobian = 1e-4;
+/// Of the RatioEnergy of triangles beyond the limit of anisotropy.
+constexpr double kRatioWeight = 500;
 
 /// The energy of one triangle, (|J|^2 + lambda (1 + det^2)) / chi(det) + mu |J - 1|^2, where
 /// chi(D) = (D + sqrt(eps^2 + D^2)) / 2 tends to max(D, 0) with eps.
@@ -91,7 +95,7 @@ public:
     energy_.mu = options.alignmentWeight;
     if (options.anisotropyLimit > 0)
     {
-      ratio_.weight = options.anisotropyWeight;
+      ratio_.weight = kRatioWeight;
       ratio_.bound = (options.anisotropyLimit + 1 / options.anisotropyLimit) / 2;
     }
     axis_.weight = options.axisWeight;
@@ -112,7 +116,7 @@ private:
     return axis_.weight > 0 && !(energy_.epsilon > 0) && t < problem_.offAxis.size() &&
       !problem_.offAxis[t].isZero(0);
   }
-  bool valid() const { return lowest_ > options_.minimumDeterminant; }
+  bool valid() const { return lowest_ > kLeastJacobian; }
   void lowerEpsilon(double gain);
   double total(const std::vector<Jacobian>& jacobians) const;
   void assemble();
@@ -165,13 +169,13 @@ void Minimizer::lowerEpsilon(double gain)
   const double depth = -std::min(0.0, lowest_);
   if (!(energy_.epsilon > 0))
   {
-    energy_.epsilon = std::max(depth, 10 * options_.minimumDeterminant);
+    energy_.epsilon = std::max(depth, 10 * kLeastJacobian);
     return;
   }
   const double root = std::hypot(depth, energy_.epsilon);
   const double rate = gain < kConverged ? 0.5 : std::max(0.1, gain);
-  energy_.epsilon = std::max(
-    energy_.epsilon * (1 - rate * root / (depth + root)), 0.1 * options_.minimumDeterminant);
+  energy_.epsilon =
+    std::max(energy_.epsilon * (1 - rate * root / (depth + root)), 0.1 * kLeastJacobian);
 }
 
 double Minimizer::total(const std::vector<Jacobian>& jacobians) const
@@ -237,7 +241,7 @@ double Minimizer::step()
     system_.jacobians(candidate, trial);
     const double after = total(trial);
     if (after <= before + 1e-4 * length * slope && after < before &&
-      (!valid() || minimumDeterminant(trial) > options_.minimumDeterminant))
+      (!valid() || minimumDeterminant(trial) > kLeastJacobian))
     {
       y_ = candidate;
       jacobians_.swap(trial);
@@ -284,7 +288,7 @@ UntangleResult Minimizer::run()
     countStep(done - result.work);
     result.work = done;
     // A smaller epsilon can set a stalled run going again; without one it has converged.
-    const bool last = energy_.epsilon <= 0.1 * options_.minimumDeterminant;
+    const bool last = energy_.epsilon <= 0.1 * kLeastJacobian;
     stalled = last && gain < (valid() ? kStalled : kConverged) ? stalled + 1 : 0;
     if (stalled > (valid() ? 0 : 5))
     {
@@ -292,7 +296,6 @@ UntangleResult Minimizer::run()
     }
   }
   result.y = y_;
-  result.minimumDeterminant = lowest_;
   std::vector<std::pair<double, Index>> bad;
   for (std::size_t t = 0; t < jacobians_.size(); ++t)
   {

@@ -49,23 +49,19 @@ struct UntangleOptions
   /// Weight of |J - 1|^2, which keeps the map rotated like the references; 0: rotations cost nothing.
   double alignmentWeight = 0;
   /// The ratio of the singular values of J up to which it costs nothing, >= 1; 0: no limit. Triangles beyond it pay a
-  /// RatioEnergy of this weight once all determinants are positive.
+  /// RatioEnergy once all determinants are positive.
   double anisotropyLimit = 0;
-  double anisotropyWeight = 500;
   /// Triangles from this one on have no limit.
   std::size_t limitedTriangles = std::numeric_limits<std::size_t>::max();
   /// Weight of the directions of the problem once all determinants are positive, see AxisEnergy; 0: they cost nothing.
   double axisWeight = 0;
-  /// det J below this fraction counts as inverted (the caller snaps to a grid afterwards).
-  double minimumDeterminant = 1e-4;
   ProgressCallback progress;
 };
 
 struct UntangleResult
 {
   Eigen::VectorXd y;
-  std::vector<Index> inverted;   ///< triangles with !(det > 0), worst first; empty on success
-  double minimumDeterminant = 0; ///< of J over all triangles
+  std::vector<Index> inverted; ///< triangles with !(det > 0), worst first; empty on success
   int steps = 0;
   /// As counted by countWork(), of the triangles and of the factorizations: global unknowns, as surfaces of high genus
   /// have, fill the factor, and these then take far more than the triangles.

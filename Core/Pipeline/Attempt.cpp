@@ -55,7 +55,7 @@ GridMapOptions mapOptions(const RunContext& run, const PlannedSurface& surface,
   if (run.options.distortionMetric) // on request
   {
     const double start = secondsNow();
-    options.stretch = measureStretch(levels.intermediate, coarse, levels.log).stretch;
+    options.stretch = measureStretch(levels.intermediate, coarse, levels.log);
     made.stages.add("metric", secondsNow() - start, levels.intermediate.mesh.faceCount(),
       coarse.mesh.faceCount());
   }

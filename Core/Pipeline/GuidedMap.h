@@ -22,7 +22,7 @@ namespace quadrille
 /// Carries the map of the coarse level (coarseUv: #H of it) to the finest mesh. Between the two, the guided regions of
 /// the intermediate level and a few quads round them are solved again with their integers, see RelaxMap.h; all else is
 /// as transferMap has it. turns, integerVertex: #V of the finest mesh, as for certify(). None where there are no
-/// guides, or where the solve would take too much (RelaxOptions::maximumOperations).
+/// guides, or where the solve would take too much (see relaxMap()).
 std::optional<TransferResult> transferAlongGuides(const Mesh& fine, const Hierarchy& levels,
   const std::vector<FixedVec2>& coarseUv, const std::vector<int>& turns,
   const std::vector<std::uint8_t>& integerVertex, const TransferOptions& options);

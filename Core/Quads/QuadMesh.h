@@ -3,6 +3,7 @@
 /// The quad mesh of an integer-grid map: each point and quad knows its place on the mapped surface.
 #pragma once
 
+#include "Base/Lists.h"
 #include "Base/Types.h"
 
 #include <array>
@@ -21,13 +22,13 @@ struct QuadLine
   bool boundary = false;
 };
 
-struct QuadMesh
 /// Half-edge 4q + i runs from corner i of quad q to corner i + 1.
 inline Index nextInQuad(Index h)
 {
   return h % 4 == 3 ? h - 3 : h + 1;
 }
 
+struct QuadMesh
 {
   std::vector<Vector3> points;
   std::vector<std::array<Index, 4>> quads;          ///< counterclockwise like the input's faces
@@ -44,11 +45,11 @@ inline Index nextInQuad(Index h)
   std::vector<int> valence;             ///< per point: number of edges
   std::vector<std::uint8_t> onBoundary; ///< per point
   std::vector<QuadLine> lines;          ///< features and boundary
-};
 
   /// The points that a half-edge comes from and leads to.
   Index origin(Index h) const { return quads[h / 4][h % 4]; }
   Index target(Index h) const { return origin(nextInQuad(h)); }
+};
 
 /// The half-edges that leave each point, and the quads there; ascending.
 Grouped<> halfEdgesAtPoints(const std::vector<std::array<Index, 4>>& quads, std::size_t points);

@@ -453,18 +453,15 @@ private:
 
 } // namespace
 
-UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
+std::size_t untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
 {
-  UntanglingResult result;
   const std::vector<Index> bad = badQuads(quads.points, quads.quads);
   if (bad.empty())
   {
-    return result; // inverted ones are bad
+    return 0; // inverted ones are bad
   }
-  result.invertedBefore = invertedQuads(quads.points, quads.quads).size();
   Untangling(mesh, quads, options).run(bad);
-  result.invertedAfter = invertedQuads(quads.points, quads.quads).size();
-  return result;
+  return invertedQuads(quads.points, quads.quads).size();
 }
 
 void loosenQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)

@@ -15,19 +15,14 @@ struct UntanglingOptions
   int threads = 0;
 };
 
-struct UntanglingResult
-{
-  std::size_t invertedBefore = 0; ///< quads with a scaled Jacobian <= 0
-  std::size_t invertedAfter = 0;
-};
-
 /// Where a map is valid, but a quad of it spans a sharp tip, a crease or a thin part of the surface, the corners of the
 /// quad may make it bad in space, or inverted (see QuadShape.h). Points within a ring of bad quads move over the faces
 /// of the mesh, those of features and boundaries along their curves (see QuadMoves.h), so that the areas at the corners
 /// become positive, the worst ones first. Points round a place keep their moves only if fewer quads are inverted there,
 /// or as many and fewer are bad. Nothing changes where no quad is bad, or away from these places. The result does not
 /// depend on the number of threads. quads must be a manifold that was extracted from mesh.
-UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options);
+/// Returns the number of quads that are inverted after it.
+std::size_t untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options);
 
 /// What places on the surface cannot mend: where two features touch each other, or are nearer than their quads, one of
 /// these is flat or inverted wherever its points lie on them. Points of bad quads and of the ring round them leave the

@@ -45,7 +45,6 @@ std::vector<SeamChain> seamChains(
       partOfEdge[std::minmax(line.a, line.b)] = partOf[line.halfEdge];
     }
   }
-  const auto from = [&](Index h) { return quads.quads[h / 4][h % 4]; };
   const auto partAt = [&](Index h)
   {
     const auto edge = partOfEdge.find(std::minmax(quads.origin(h), quads.target(h)));

@@ -307,13 +307,14 @@ public:
   {
   }
 
-  /// Corners of the finer face in the plane of coarse face `home` and in its own. False for one that has no area there.
-  bool add(Index home, const Complex* flat, const std::array<Complex, 3>& surface)
+  /// Corners of the finer face in the plane of coarse face `home` and in its own. One that has no area there counts
+  /// nothing.
+  void add(Index home, const Complex* flat, const std::array<Complex, 3>& surface)
   {
     const std::optional<Eigen::Matrix2d> map = jacobianOf(flat, surface);
     if (!map)
     {
-      return false;
+      return;
     }
     const Eigen::Matrix2d& jacobian = *map;
     const Eigen::Matrix2d metric = jacobian.transpose() * jacobian;
@@ -321,7 +322,7 @@ public:
     const double root = std::sqrt(metric.trace() + 2 * ratio);
     if (!(root > 0) || !std::isfinite(root))
     {
-      return false;
+      return;
     }
     spread_(home, kInvalidIndex, { flat[0], flat[1], flat[2] },
       Eigen::Matrix2d((metric + ratio * Eigen::Matrix2d::Identity()) / root),
@@ -332,7 +333,6 @@ public:
         share.covered += area;
         share.surface += area * ratio;
       });
-    return true;
   }
 
   const std::vector<Share>& shares() const { return shares_; }
@@ -454,32 +454,28 @@ std::vector<Guide> gatherGuides(
   return guides;
 }
 
-SurfaceStretch measureStretch(
+std::vector<Eigen::Matrix2d> measureStretch(
   const Level& intermediate, const Level& coarse, const DecimationLog& log)
 {
   const CoarsePlanes planes(coarse.mesh);
   Layout layout(planes, intermediate.mesh.faceCount());
   layOutLevel(intermediate, coarse, log, layout);
-  SurfaceStretch result;
   Distributor distributor(planes);
   for (Index f = 0; f < intermediate.mesh.faceCount(); ++f)
   {
     pollNowAndThen(f);
-    const std::array<Complex, 3> surface = layOut(intermediate.mesh, f);
-    const bool added = distributor.add(layout.home(f), layout.corners(f), surface);
-    result.notPositive += added ? 0 : 1;
-    result.surfaceArea += added ? 0.5 * cross(surface[1], surface[2]) : 0;
+    distributor.add(layout.home(f), layout.corners(f), layOut(intermediate.mesh, f));
   }
+  std::vector<Eigen::Matrix2d> result;
   for (const Share& share : distributor.shares())
   {
     Eigen::Matrix2d stretch = share.stretch;
     const double determinant = stretch.determinant();
     const bool covered = share.covered > 0 && share.surface > 0 && determinant > 0;
-    result.uncovered += covered ? 0 : 1;
     stretch = covered
       ? Eigen::Matrix2d(stretch * std::sqrt(share.surface / share.covered / determinant))
       : Eigen::Matrix2d(Eigen::Matrix2d::Identity());
-    result.stretch.push_back(stretch);
+    result.push_back(stretch);
   }
   return result;
 }

@@ -18,20 +18,10 @@
 namespace quadrille
 {
 
-struct SurfaceStretch
-{
-  /// #F of the coarse level: symmetric and positive, in the plane of the face whose first axis is half-edge 3f. Its
-  /// determinant is the area of the surface that was laid out there over the area that it covers; the identity where
-  /// nothing was.
-  std::vector<Eigen::Matrix2d> stretch;
-  double surfaceArea = 0; ///< of the intermediate faces that were laid out
-  std::size_t notPositive =
-    0; ///< intermediate faces that were not, as they came out inverted or without area
-  std::size_t uncovered = 0; ///< coarse faces on which nothing was laid out
-};
-
-/// Of the coarse level against the intermediate one. Throws InvalidInput when the levels are not of the log's surface.
-SurfaceStretch measureStretch(
+/// #F of the coarse level, against the intermediate one: symmetric and positive, in the plane of the face whose first
+/// axis is half-edge 3f. Its determinant is the area of the surface that was laid out there over the area that it
+/// covers; the identity where nothing was. Throws InvalidInput when the levels are not of the log's surface.
+std::vector<Eigen::Matrix2d> measureStretch(
   const Level& intermediate, const Level& coarse, const DecimationLog& log);
 
 /// Guides of the coarse level (#F, or empty) from those of the intermediate faces that a face stands for: the mean of

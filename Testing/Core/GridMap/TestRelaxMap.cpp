@@ -78,7 +78,6 @@ TEST(RelaxMap, FindsTheIsometry)
   EXPECT_NEAR(result.after, 1, 1e-9); // 4 is the least energy of a triangle, and reached
   EXPECT_LT(plane.largestError(), 1e-4);
   EXPECT_TRUE(certify(plane.mesh, plane.uv, plane.turns, plane.integer).valid());
-  EXPECT_EQ(result.heldVertices, 0U);
 }
 
 /// Charts are free, so the map may be cut anywhere.
@@ -136,7 +135,6 @@ TEST(RelaxMap, LeavesWhatIsNotPositiveAlone)
   ASSERT_FALSE(inverted.empty());
   const RelaxResult result = relaxMap(plane.mesh, plane.integer, {}, plane.uv);
   EXPECT_LT(result.after, result.before);
-  EXPECT_GT(result.heldVertices, 3U);
   EXPECT_EQ(findNotPositive(plane.mesh, plane.uv), inverted);
   for (const Index f : inverted)
   {
@@ -281,17 +279,14 @@ TEST(RelaxMap, RefusesWhatIsTooLarge)
 {
   ShakenPlane plane(9, 0.3);
   const std::vector<FixedVec2> before = plane.uv;
-  for (const bool memory : { true, false })
-  {
-    RelaxOptions options;
-    (memory ? options.maximumBytes : options.maximumOperations) = 10;
-    const RelaxResult result = relaxMap(plane.mesh, plane.integer, options, plane.uv);
-    EXPECT_EQ(result.status.code, StatusCode::TooLarge);
-    EXPECT_NE(result.status.message.find("162 triangles"), std::string::npos)
-      << result.status.message;
-    EXPECT_EQ(result.status.message.find("memory is not free") != std::string::npos, memory);
-    EXPECT_TRUE(plane.uv == before);
-  }
+  RelaxOptions options;
+  options.maximumBytes = 10;
+  const RelaxResult result = relaxMap(plane.mesh, plane.integer, options, plane.uv);
+  EXPECT_EQ(result.status.code, StatusCode::TooLarge);
+  EXPECT_NE(result.status.message.find("162 triangles"), std::string::npos)
+    << result.status.message;
+  EXPECT_NE(result.status.message.find("memory is not free"), std::string::npos);
+  EXPECT_TRUE(plane.uv == before);
 }
 
 TEST(RelaxMap, RefusesSizesThatDisagree)

@@ -24,7 +24,6 @@ RemovalGuards looseGuards()
   guards.minimumNormalDot = -1;
   guards.minimumValence = 3;
   guards.maximumValence = kMaximumRing;
-  guards.allowConstrainedFaces = true;
   guards.curveTolerance = 1e300;
   return guards;
 }
@@ -283,7 +282,7 @@ TEST(RemovalRules, AFaceHasOneConstrainedEdge)
   EXPECT_FALSE(canGo(two, middle, looseGuards()));
 }
 
-TEST(RemovalRules, FacesOfThreeCurveVerticesWaitForTheLastStage)
+TEST(RemovalRules, NoFaceHasThreeCurveVertices)
 {
   const Vector3 a(2, 2, 0), b(3, 2, 0), c(3, 3, 0);
   const Mesh mesh = planeWithCutFace(a, b, c);
@@ -292,8 +291,5 @@ TEST(RemovalRules, FacesOfThreeCurveVerticesWaitForTheLastStage)
   {
     work.curves.kind[vertexAt(mesh, p)] = VertexKind::Protected; // ends of features outside
   }
-  RemovalGuards guards = looseGuards();
-  EXPECT_TRUE(canGo(work, mesh.vertexCount() - 1, guards));
-  guards.allowConstrainedFaces = false;
-  EXPECT_FALSE(canGo(work, mesh.vertexCount() - 1, guards));
+  EXPECT_FALSE(canGo(work, mesh.vertexCount() - 1, looseGuards()));
 }

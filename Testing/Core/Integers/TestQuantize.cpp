@@ -370,12 +370,10 @@ TEST(Quantize, IsDeterministic)
 
 TEST(Quantize, TellsTheGrowth)
 {
-  // Blocks of a tenth of a quad must become at least one quad.
-  const SyntheticMap map = staircaseMap(4, 4, 4, 3, 0.1, true, 2);
-  QuantizeOptions options;
-  options.maximumRefinement = 2;
-  const QuantizeResult result = quantizeMap(map.mesh, map.field, map.uv, options);
-  EXPECT_GT(result.refinement, 2);
+  // Blocks of a fiftieth of a quad must become at least one quad.
+  const SyntheticMap map = staircaseMap(4, 4, 4, 3, 0.02, true, 2);
+  const QuantizeResult result = quantizeMap(map.mesh, map.field, map.uv, {});
+  EXPECT_GT(result.refinement, 8);
   EXPECT_EQ(result.status.code, StatusCode::NotConverged);
   expectWhole(map, result.uv);
 }

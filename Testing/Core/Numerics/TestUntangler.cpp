@@ -329,7 +329,6 @@ TEST(Untangler, RecoversARandomlyPerturbedSquareWithFixedBorder)
     options.polishSteps = 30;
     const UntangleResult result = untangle(square.problem, start, options);
     EXPECT_TRUE(result.inverted.empty()) << "seed " << seed;
-    EXPECT_GT(result.minimumDeterminant, 0);
     // The regular grid is the minimum (every J is the unit matrix) and Newton's method converges
     // quadratically: what is left after the polish is rounding and the stop at a gain of 1e-5.
     EXPECT_LT((result.y - square.inside).cwiseAbs().maxCoeff(), 1e-2) << "seed " << seed;

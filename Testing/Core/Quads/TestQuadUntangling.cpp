@@ -207,11 +207,8 @@ TEST(QuadUntangling, MendsAllOfAPlane)
   {
     const GridMapCase c = thinCrumpledPlane(1, thickness);
     QuadMesh mesh = rawQuads(c);
-    const std::size_t before = invertedCount(mesh);
-    ASSERT_GE(before, 5u); // else there is nothing to see
-    const UntanglingResult result = untangleQuads(c.mesh, mesh, {});
-    EXPECT_EQ(result.invertedBefore, before);
-    EXPECT_EQ(result.invertedAfter, 0u) << thickness;
+    ASSERT_GE(invertedCount(mesh), 5u); // else there is nothing to see
+    EXPECT_EQ(untangleQuads(c.mesh, mesh, {}), 0u) << thickness;
     EXPECT_EQ(invertedCount(mesh), 0u);
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
     {
@@ -256,7 +253,7 @@ TEST(QuadUntangling, LeavesMeshesWithoutSuchQuadsAlone)
     if (badQuads(raw.points, raw.quads).empty())
     {
       QuadMesh mesh = raw;
-      EXPECT_EQ(untangleQuads(c.mesh, mesh, {}).invertedBefore, 0u);
+      EXPECT_EQ(untangleQuads(c.mesh, mesh, {}), 0u);
       expectSamePlaces(mesh, raw);
     }
   }
@@ -266,9 +263,7 @@ TEST(QuadUntangling, WhatCannotBeMendedStaysAsItWas)
 {
   Dart dart;
   const QuadMesh before = dart.quads;
-  const UntanglingResult result = untangleQuads(dart.mesh, dart.quads, {});
-  EXPECT_EQ(result.invertedBefore, 1u);
-  EXPECT_EQ(result.invertedAfter, 1u);
+  EXPECT_EQ(untangleQuads(dart.mesh, dart.quads, {}), 1u);
   expectSamePlaces(dart.quads, before);
 }
 
