@@ -24,11 +24,6 @@ namespace
 /// In girths: the longest edge of a disc that is taken out, and the one from which a disc has opened into a surface.
 constexpr double kWidestMouth = 1.5;
 constexpr double kOpen = 3;
-/// In areas of the fan: what a disc has to have beyond it to be a pit, and what counts as no more.
-constexpr double kLeastPit = 0.5;
-constexpr double kNoMore = 0.05;
-/// The least cosine between the normals of a fan's triangle and of the whole fan.
-constexpr double kLeastFacing = 0.1;
 /// Vertices of the largest disc that is looked at; stubs are shorter than quads, or thin.
 constexpr std::size_t kMostVertices = 20000;
 
@@ -83,6 +78,9 @@ public:
   /// The faces to take out, and the fan in their place; none where there is no pit.
   std::optional<std::pair<std::vector<Index>, MouthFan>> best() const
   {
+    // In areas of the fan: what a disc has to have beyond it to be a pit, and what counts as no more.
+    constexpr double kLeastPit = 0.5;
+    constexpr double kNoMore = 0.05;
     const auto beyond = [](const Disc& disc) { return disc.area - disc.fan.area; };
     const auto most = std::max_element(discs_.begin(), discs_.end(),
       [&](const Disc& a, const Disc& b) { return beyond(a) < beyond(b); });
@@ -213,6 +211,8 @@ private:
       return false;
     }
     fan.middle /= static_cast<double>(fan.run.size());
+    // The least cosine between the normals of a triangle and of the whole fan.
+    constexpr double kLeastFacing = 0.1;
     return std::all_of(fan.run.begin(), fan.run.end(),
       [&](Index edge)
       {

@@ -31,8 +31,6 @@ namespace
 constexpr double kLeastRise = 0.125;
 /// How far from the loop, over its length, the tip and the vertex outside are if they can be.
 constexpr double kFarOverLength = 1.1;
-/// A loop may be as long as this part of the way to the tip and back: a longer one may go there and round the tip.
-constexpr double kLoopOfHeight = 1.9;
 /// Faces that the search for parts looks at over those of the mesh. Where there are no necks it is one.
 constexpr std::size_t kMostWork = 100;
 
@@ -378,6 +376,8 @@ private:
     {
       return {};
     }
+    // A loop may be as long as this part of the way to the tip and back: a longer one may go there and round the tip.
+    constexpr double kLoopOfHeight = 1.9;
     double bound = std::min(longer * part.girth, kLoopOfHeight * part.height);
     std::vector<Index> best;
     for (const Index root : part.loop)

@@ -26,13 +26,6 @@ constexpr double kSideWidth = 0.5;
 constexpr double kPlaceDistance = 0.5;
 /// A short curve is looked at in so many places, too.
 constexpr double kLeastCurvePlaces = 4;
-/// A curve goes on through a junction where it bends by less than this (radians) over an edge length.
-constexpr double kBend = 0.6;
-
-constexpr double kLeastWide = 0.5;
-constexpr double kMostRough = 0.15;
-constexpr double kRoughPerLength = kMostRough / 25;
-constexpr double kMostRoughWithOneEnd = 0.5;
 /// Noise makes no curve of so many edge lengths.
 constexpr double kLongCrease = 50;
 
@@ -112,6 +105,7 @@ private:
   /// At a junction the edge that goes on straightest from h; kInvalidIndex where all bend.
   Index straightest(Index h, Index v) const
   {
+    constexpr double kBend = 0.6; // at most, in radians over an edge length
     const Vector3 forward = -courseFrom(v, h);
     double most = std::cos(kBend);
     Index best = kInvalidIndex;
@@ -275,6 +269,10 @@ void measureCurve(const Mesh& mesh, double edgeLength, CreaseCurve& curve)
 
 bool CreaseCurve::isCrease() const
 {
+  constexpr double kLeastWide = 0.5;
+  constexpr double kMostRough = 0.15;
+  constexpr double kRoughPerLength = kMostRough / 25;
+  constexpr double kMostRoughWithOneEnd = 0.5;
   if (freeEnds == 0 || length >= kLongCrease)
   {
     return true;

@@ -30,17 +30,10 @@ constexpr std::size_t kMostCrossedEdges = 10000;
 
 /// Of an edge length: how far from its middle line a fillet ends. Wider ones have room for quads of their own.
 constexpr double kHalfFillet = 0.35;
-/// The surface is looked at as far as this times that, and turns there by so much more than within it at most.
+/// The surface is looked at as far as this times that.
 constexpr double kBeyond = 2;
-constexpr double kMostBeyond = 1.25;
 /// A single edge of a curve may bend the surface by this part of what the curve has to on average.
 constexpr double kLeastPart = 0.5;
-/// Of that distance: edges nearer to each other, and along each other, lie in one section.
-constexpr double kBeside = 0.125;
-/// Cosine of the angle between edges that are along each other.
-constexpr double kParallelCosine = 0.9;
-/// In edge lengths: what is shorter is the corner between fillets.
-constexpr double kLeastLength = 2;
 /// Edges that bend by this part of one beside them are the diagonals of a strip.
 constexpr double kDiagonal = 0.5;
 
@@ -375,6 +368,10 @@ private:
   /// Edges beside that of the section, along it and bent as it is, need no walk of their own, but for the middle one.
   void pass(const Section& section, const Side& side, Index middle)
   {
+    // Of the width: edges nearer to each other, and along each other, lie in one section.
+    constexpr double kBeside = 0.125;
+    // Cosine of the angle between edges that are along each other.
+    constexpr double kParallelCosine = 0.9;
     const Vector3 along = mesh_.edgeVector(section.edge).normalized();
     const double within = (finder_.isFlat(section) ? 1 : kBeside) * section.width;
     for (const Crossing& crossing : side.crossings)
@@ -406,6 +403,10 @@ std::vector<Index> markFillets(Mesh& mesh, double angle, double edgeLength, int 
 {
   refuseIf(!(edgeLength > 0) || !std::isfinite(edgeLength) || !(angle > 0),
     "fillets: the edge length and the angle must be positive");
+  // In edge lengths: what is shorter is the corner between fillets.
+  constexpr double kLeastLength = 2;
+  // By how much more the surface turns over the wider distance than over that of the fillet, at most.
+  constexpr double kMostBeyond = 1.25;
   const Lines lines(mesh, angle, edgeLength, threads);
   std::vector<Index> marked;
   for (const std::vector<Index>& curve : curvesOfEdges(mesh, lines.single(lines.edges())))

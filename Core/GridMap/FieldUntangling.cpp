@@ -27,14 +27,8 @@ constexpr double kStiffening = 10;
 /// Rounds with more weight, one after the other, that lessened nothing: in the runs looked at, a third one did not
 /// either.
 constexpr int kIdleRounds = 2;
-constexpr int kRequestSteps = 30;
 /// A valid map has converged where a step lessens its energy by a smaller share.
 constexpr double kLeastGain = 0.01;
-/// Of guides against the energy that the map has anyway.
-constexpr double kGuideWeight = 30;
-/// Of the way from 1 to the limit, where the penalty begins: it is zero there and small at first, so that triangles
-/// come to rest a little further on.
-constexpr double kAnisotropyStart = 0.85;
 
 /// #V: by how many triangles a vertex is away from these, up to `most`; more than that for all others.
 std::vector<int> ringsFrom(const Mesh& mesh, const std::vector<Index>& vertices, int most)
@@ -229,6 +223,12 @@ void followRequests(const Mesh& mesh, const CrossField& field, const UntanglePro
   {
     return;
   }
+  constexpr int kRequestSteps = 30;
+  // Of guides against the energy that the map has anyway.
+  constexpr double kGuideWeight = 30;
+  // Of the way from 1 to the limit, where the penalty begins: it is zero there and small at first, so that triangles
+  // come to rest a little further on.
+  constexpr double kAnisotropyStart = 0.85;
   UntangleOptions options = fieldUntangleOptions(progress);
   if (limit > 0)
   {

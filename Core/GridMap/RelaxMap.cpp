@@ -23,29 +23,9 @@ namespace quadrille
 namespace
 {
 
-/// Where no such step lowers the energy, crushed triangles keep all others from moving: then none of them may rise by
-/// more than this factor, less and less the shorter the step.
-constexpr double kMostRise = 10;
-/// Of the matrix of a step, over the mean of its diagonal.
-constexpr double kRegularization = 1e-9;
-/// How often the whole step is halved before the descent ends.
-constexpr int kBacktracking = 6;
 constexpr int kLocalSweeps = 60;
-/// What Newton steps take, on scans: bytes a triangle, those of them that are not the factorization's, and operations
-/// over the triangles to the power of 3/2. Of one thread and steps as measured, see Documentation/Performance.md.
-constexpr double kBytesPerFace = 2000;
-constexpr double kBytesOfTriangle = 900;
-constexpr double kOperationsPerRoot = 60;
-constexpr double kOperationsPerSecond = 5e9;
-constexpr double kUsualSteps = 4;
 /// Multiplications of a factorization, at most: about 40 s on one thread, a surface of about two million triangles.
 constexpr double kMostOperations = 2e11;
-/// From here on these estimates are asked before the exact ones.
-constexpr double kManyFaces = 3e6;
-/// Steps in which an inset boundary gets to its place, at most; where its vertices can take whole steps it is one.
-constexpr int kInsetSteps = 40;
-/// A step that brings it nearer by a smaller part of the way than this ends that.
-constexpr double kLeastInset = 1e-3;
 /// How often a whole step is halved before those of single vertices are shortened.
 constexpr int kInsetHalvings = 2;
 
@@ -89,6 +69,7 @@ double MapRelaxation::insetLeft() const
 /// The step of Newton's method; false where there is none.
 bool MapRelaxation::solveStep(Eigen::VectorXd& direction)
 {
+  constexpr double kRegularization = 1e-9; // of the matrix, over the mean of its diagonal
   std::vector<Jacobian> gradients;
   std::vector<Eigen::Matrix4d> hessians;
   derivatives(gradients, hessians);
@@ -128,6 +109,10 @@ bool MapRelaxation::stepInset()
 /// False, with the status, where the boundary does not get to its place.
 bool MapRelaxation::moveInset(RelaxResult& result)
 {
+  // At most; where its vertices can take whole steps it is one.
+  constexpr int kInsetSteps = 40;
+  // A step that brings it nearer by a smaller part of the way than this is the last one.
+  constexpr double kLeastInset = 1e-3;
   double left = insetLeft();
   for (int step = 0; left > 0 && step < kInsetSteps; ++step)
   {
@@ -167,6 +152,11 @@ bool MapRelaxation::newtonStep(double& current)
   {
     return false;
   }
+  // How often the whole step is halved before the descent ends.
+  constexpr int kBacktracking = 6;
+  // Where no such step lowers the energy, crushed triangles keep all others from moving: then none of them may rise by
+  // more than this factor, less and less the shorter the step.
+  constexpr double kMostRise = 10;
   // The first step that gains something worth while; else the best one.
   std::vector<FixedVec2> best;
   double bestEnergy = current;
@@ -312,6 +302,9 @@ bool MapRelaxation::check(double bytes, double operations, RelaxResult& result) 
   {
     return true;
   }
+  // Of one thread and steps as measured, see Documentation/Performance.md.
+  constexpr double kOperationsPerSecond = 5e9;
+  constexpr double kUsualSteps = 4;
   std::ostringstream text;
   text << "about " << std::ceil(1e-6 * bytes) << " MB and "
        << std::ceil(kUsualSteps * operations / kOperationsPerSecond)
@@ -326,7 +319,14 @@ bool MapRelaxation::check(double bytes, double operations, RelaxResult& result) 
 /// False where it would take too much.
 bool MapRelaxation::makeSolver(RelaxResult& result)
 {
-  // The ordering of many millions of triangles alone takes memory and time.
+  // What Newton steps take, on scans: bytes a triangle, those of them that are not the factorization's, and operations
+  // over the triangles to the power of 3/2, see Documentation/Performance.md.
+  constexpr double kBytesPerFace = 2000;
+  constexpr double kBytesOfTriangle = 900;
+  constexpr double kOperationsPerRoot = 60;
+  // From here on these estimates are asked before the exact ones: the ordering of many millions of triangles alone
+  // takes memory and time.
+  constexpr double kManyFaces = 3e6;
   const double faces = mesh_.faceCount();
   if (faces > kManyFaces &&
     !check(kBytesPerFace * faces, kOperationsPerRoot * faces * std::sqrt(faces), result))

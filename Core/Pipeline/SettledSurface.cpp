@@ -29,13 +29,8 @@ constexpr int kMostCuttings = 10;
 /// Where a round cuts less than this part of those it has tried, another one is not worth its phase 1.
 constexpr double kWorthwhileCut = 0.125;
 
-/// Of the stubs that a crowd of handles leaves, those with less area than so many quads are cut off, and how often
-/// others are looked for that were inside or beside them.
-constexpr double kQuadsOfThinPart = 6;
+/// How often other stubs are looked for that were inside or beside those that were cut off.
 constexpr int kMostThinnings = 6;
-/// They are cut off where the three vertices of each take more than this part of the coarse level's budget, which
-/// leaves no room for a map, and where nothing else has led to quads: every cut changes the surface.
-constexpr double kMostOfBudget = 0.5;
 
 /// A simplified surface in the store, without what was asked of it: guides, valences and curves change nothing of it.
 struct StoredSettled
@@ -185,6 +180,10 @@ double coarseBudget(const RemeshOptions& options)
 /// vertices than all else, and no room. The number of those that were cut off.
 std::size_t thin(Settling& work, double limit, bool isBegun)
 {
+  // Those with less area than so many quads are cut off, where the three vertices of each take more than this part of
+  // the coarse level's budget, and where nothing else has led to quads: every cut changes the surface.
+  constexpr double kQuadsOfThinPart = 6;
+  constexpr double kMostOfBudget = 0.5;
   const double edgeLength = work.sized.edgeLength;
   const double mostArea = kQuadsOfThinPart * edgeLength * edgeLength;
   RunContext& run = *work.made.run;

@@ -25,7 +25,6 @@ constexpr int kGridBits = 26;
 constexpr int kStepsOfEdge = 10;
 constexpr int kMostGridBits = 44;
 constexpr std::size_t kFineShare = 64;
-constexpr std::size_t kEdgeSamples = std::size_t{ 1 } << 20;
 /// Rounding goes up from this part of a step on, away from zero. Not one half, nor any simple fraction, as coordinates
 /// that people or programs write sit on such, and there the last bit would decide.
 constexpr double kUp = 0.618;
@@ -56,6 +55,7 @@ private:
 int gridBits(const SurfaceInput& input, double unit)
 {
   constexpr int kLowestExponent = -64;
+  constexpr std::size_t kEdgeSamples = std::size_t{ 1 } << 20;
   std::array<std::size_t, 64> count{};
   const std::size_t corners = input.polygonPoints.size();
   const std::size_t stride = std::max<std::size_t>(1, corners / kEdgeSamples);

@@ -29,14 +29,6 @@ namespace quadrille
 namespace
 {
 
-/// Faces that refinement may end with: so many for each square of the maximum edge length, and for each
-/// input face; a small surface may grow more, and there is an end to all.
-constexpr double kFacesPerSquare = 20;
-constexpr double kFacesPerFace = 16;
-constexpr double kFacesPerFaceOfSmall = 160;
-constexpr double kSmallEnd = 4e6;
-constexpr double kMostRefinedFaces = 1e8;
-
 /// Of a large surface so few new faces stay at its end: where they lie costs nothing then, and to order it anew does.
 constexpr Index kLargeSurface = Index{ 1 } << 18;
 constexpr Index kFewAmong = 256;
@@ -274,8 +266,15 @@ bool anyConstraint(const Mesh& mesh, int threads)
            }) < faces;
 }
 
+/// Faces that refinement may end with: so many for each square of the maximum edge length, and for each input face; a
+/// small surface may grow more, and there is an end to all.
 std::size_t faceLimit(const PreparedSurface& surface, double maximumLength)
 {
+  constexpr double kFacesPerSquare = 20;
+  constexpr double kFacesPerFace = 16;
+  constexpr double kFacesPerFaceOfSmall = 160;
+  constexpr double kSmallEnd = 4e6;
+  constexpr double kMostRefinedFaces = 1e8;
   const double faces = surface.mesh.faceCount();
   const double area = surface.mesh.sizing.empty() ? surface.area : sizedArea(surface.mesh);
   const double growth =
