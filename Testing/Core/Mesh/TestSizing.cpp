@@ -47,7 +47,7 @@ TEST(Sizing, GrowthIsLimitedFromTheSmallestOn)
   EXPECT_EQ(report.changed, 9U * 5U); // columns 21 to 25; at 26 the size 1 is reached
   EXPECT_NEAR(report.most, 1 / 0.375, 1e-6);
   EXPECT_EQ(mesh.position[report.vertex].x(), 21);
-  EXPECT_TRUE(contains(sizingNotice(mesh, report), "45 of 369 vertices"));
+  EXPECT_TRUE(test::contains(sizingNotice(mesh, report), "45 of 369 vertices"));
 }
 
 TEST(Sizing, GentleSizesStayAsTheyAre)
@@ -210,11 +210,11 @@ TEST(Sizing, WrongSizesAreRefusedByName)
   for (const float size : { 0.0F, -1.0F, std::numeric_limits<float>::infinity(),
          std::numeric_limits<float>::quiet_NaN() })
   {
-    EXPECT_TRUE(contains(message(size), "the size of point 4 is")) << message(size);
+    EXPECT_TRUE(test::contains(message(size), "the size of point 4 is")) << message(size);
   }
   SurfaceInput input = toInput(gridPlane(2, 2));
   input.sizing = { 1, 1 };
-  EXPECT_TRUE(contains(messageOf([&] { prepare(input); }), "2 values for 9 points"));
+  EXPECT_TRUE(test::contains(messageOf([&] { prepare(input); }), "2 values for 9 points"));
 }
 
 } // namespace

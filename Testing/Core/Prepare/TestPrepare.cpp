@@ -190,33 +190,34 @@ TEST(Prepare, InvalidInputIsNamed)
     return messageOf([&] { prepare(input); });
   };
   EXPECT_EQ(messageFor([](SurfaceInput&) {}), "");
-  EXPECT_TRUE(contains(messageFor([](SurfaceInput& in) { in = SurfaceInput(); }), "empty"));
-  EXPECT_TRUE(contains(messageFor([](SurfaceInput& in) { in.points.clear(); }), "empty"));
-  EXPECT_TRUE(
-    contains(messageFor([](SurfaceInput& in) { in.points.edit()[6].y() = NAN; }), "point 6 "));
-  EXPECT_TRUE(contains(
+  EXPECT_TRUE(test::contains(messageFor([](SurfaceInput& in) { in = SurfaceInput(); }), "empty"));
+  EXPECT_TRUE(test::contains(messageFor([](SurfaceInput& in) { in.points.clear(); }), "empty"));
+  EXPECT_TRUE(test::contains(
+    messageFor([](SurfaceInput& in) { in.points.edit()[6].y() = NAN; }), "point 6 "));
+  EXPECT_TRUE(test::contains(
     messageFor([](SurfaceInput& in) { in.points.edit()[3].z() = -INFINITY; }), "point 3 "));
-  EXPECT_TRUE(contains(messageFor([](SurfaceInput& in) { in.polygonPoints.edit()[10] = 99; }),
+  EXPECT_TRUE(test::contains(messageFor([](SurfaceInput& in) { in.polygonPoints.edit()[10] = 99; }),
     "polygon 3 uses point 99"));
-  EXPECT_TRUE(
-    contains(messageFor([](SurfaceInput& in) { in.polygonOffsets.edit()[2] = 12; }), "polygon 2"));
-  EXPECT_TRUE(contains(messageFor(
-                         [](SurfaceInput& in)
-                         {
-                           in.polygonOffsets.pop_back();
-                           in.polygonOffsets.push_back(30);
-                         }),
+  EXPECT_TRUE(test::contains(
+    messageFor([](SurfaceInput& in) { in.polygonOffsets.edit()[2] = 12; }), "polygon 2"));
+  EXPECT_TRUE(test::contains(messageFor(
+                               [](SurfaceInput& in)
+                               {
+                                 in.polygonOffsets.pop_back();
+                                 in.polygonOffsets.push_back(30);
+                               }),
     "offsets"));
-  EXPECT_TRUE(contains(messageFor([](SurfaceInput& in) { in.patchIds.resize(3); }), "patch"));
-  EXPECT_TRUE(contains(messageFor([](SurfaceInput& in) { in.featureEdges.resize(3); }), "feature"));
-  EXPECT_TRUE(contains(messageFor(
-                         [](SurfaceInput& in)
-                         {
-                           for (Vector3& p : in.points.editAll())
-                           {
-                             p.setZero();
-                           }
-                         }),
+  EXPECT_TRUE(test::contains(messageFor([](SurfaceInput& in) { in.patchIds.resize(3); }), "patch"));
+  EXPECT_TRUE(
+    test::contains(messageFor([](SurfaceInput& in) { in.featureEdges.resize(3); }), "feature"));
+  EXPECT_TRUE(test::contains(messageFor(
+                               [](SurfaceInput& in)
+                               {
+                                 for (Vector3& p : in.points.editAll())
+                                 {
+                                   p.setZero();
+                                 }
+                               }),
     "no face is left"));
 }
 

@@ -210,8 +210,8 @@ TEST(Repair, AFinOnASheetLeavesTheSheetWhole)
 TEST(Repair, AMoebiusStripIsRefusedByName)
 {
   const std::string message = messageOf([] { prepare(moebius(12)); });
-  EXPECT_TRUE(contains(message, "not orientable")) << message;
-  EXPECT_TRUE(contains(message, "polygon ")) << message;
+  EXPECT_TRUE(test::contains(message, "not orientable")) << message;
+  EXPECT_TRUE(test::contains(message, "polygon ")) << message;
 }
 
 TEST(Repair, IsolatedPointsGo)
