@@ -81,7 +81,7 @@ public:
   /**
    * Of the last Update(): "ok", "status", "message", "stages" (that ran, with seconds), "reused", "runs" (0: nothing
    * was to do), "seconds", "notices", "constraints" (id, kind, text, place, met, deviation, deviation_95, unit,
-   * reason).
+   * reason, remark).
    */
   std::string GetReport() const;
 

@@ -94,6 +94,7 @@ py::dict wordDict(const ConstraintWord& word, std::size_t id)
   dict["deviation_95"] = knownNumber(word.deviation95);
   dict["unit"] = word.unit;
   dict["reason"] = word.reason;
+  dict["remark"] = word.remark;
   dict["place"] = py::make_tuple(word.place.x(), word.place.y(), word.place.z());
   return dict;
 }

@@ -214,7 +214,7 @@ Json constraintsOf(vtkTable* table)
         { "place", Json::array({ value("X"), value("Y"), value("Z") }) },
         { "met", value("Met") != 0 }, { "deviation", value("Deviation") },
         { "deviation_95", value("Deviation95") }, { "unit", text("Unit") },
-        { "reason", text("Reason") } });
+        { "reason", text("Reason") }, { "remark", text("Remark") } });
   }
   return constraints;
 }

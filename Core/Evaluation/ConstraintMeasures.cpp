@@ -401,32 +401,45 @@ std::optional<Index> ConstraintMeasures::strangerAt(
   return std::nullopt;
 }
 
+ConstraintMeasure ConstraintMeasures::changedValence(
+  const Vector3& place, int asked, const std::vector<ValencePlace>* irregular)
+{
+  ConstraintMeasure word = this->valence(place, asked);
+  const bool isRegular = asked == kRegularValence;
+  if (irregular == nullptr || mesh_.quads.empty() || word.isMet == isRegular)
+  {
+    return word;
+  }
+  const std::optional<Index> stranger = strangerAt(place, *irregular);
+  if (isRegular && !stranger)
+  {
+    word.isMet = true;
+    word.deviation = 0;
+    word.reason.clear();
+  }
+  else if (!isRegular && stranger)
+  {
+    word.isMet = false;
+    word.place = mesh_.points[*stranger];
+    word.reason = "an irregular vertex of valence " +
+      std::to_string(valences().valence(*stranger)) + " is " +
+      shortText((word.place - place).norm() / edgeLengthAt(place)) +
+      " edge lengths from its new place, where there was to be none: choose a place with more room "
+      "between features and other irregular vertices";
+  }
+  return word;
+}
+
 ConstraintMeasure ConstraintMeasures::move(const PlacedConstraint& constraint)
 {
+  const std::vector<ValencePlace>* const irregular = constraint.irregular.get();
   const Vector3& from = constraint.path.front();
-  const Vector3& to = constraint.path.back();
-  ConstraintMeasure there = this->valence(to, constraint.valence);
-  const ConstraintMeasure before = this->valence(from, kRegularValence);
-  // Smoothing may have brought another one to where it was.
-  const bool isLeft =
-    !before.isMet && (!constraint.irregular || strangerAt(from, *constraint.irregular));
-  if (there.isMet && isLeft)
+  ConstraintMeasure there = changedValence(constraint.path.back(), constraint.valence, irregular);
+  if (there.isMet && !changedValence(from, kRegularValence, irregular).isMet)
   {
     there.isMet = false;
     there.place = from;
     there.reason = "it is at its new place, but where it was another irregular vertex is left";
-  }
-  const std::optional<Index> stranger =
-    there.isMet && constraint.irregular ? strangerAt(to, *constraint.irregular) : std::nullopt;
-  if (stranger)
-  {
-    there.isMet = false;
-    there.place = mesh_.points[*stranger];
-    there.reason = "an irregular vertex of valence " +
-      std::to_string(valences().valence(*stranger)) + " is " +
-      shortText((there.place - to).norm() / edgeLengthAt(to)) +
-      " edge lengths from its new place, where there was to be none: choose a place with more room "
-      "between features and other irregular vertices";
   }
   return there;
 }
@@ -454,13 +467,16 @@ ConstraintMeasure ConstraintMeasures::line(
                              : "the chain of edges ends at " + placeText(found->end) + ", " +
         shortText(found->ends) + " edge lengths from the end of the line, at most " +
         shortText(kMetEnds) + " count as met: end the line there";
-    const bool isFar = constraint.kind == ConstraintKind::Cycle && found->distance > kMetCycle;
-    if (found->isMet() && found->distance > kToldLine)
+    const std::string away = "the chain of edges is up to " + shortText(found->distance) +
+      " edge lengths away from the line";
+    if (word.isMet && constraint.kind == ConstraintKind::Cycle && found->distance > kMetCycle)
     {
-      word.isMet = !isFar;
-      word.reason = "the chain of edges is up to " + shortText(found->distance) +
-        " edge lengths away from the line" +
-        (isFar ? ", at most " + shortText(kMetCycle) + " count as met" : "");
+      word.isMet = false;
+      word.reason = away + ", at most " + shortText(kMetCycle) + " count as met";
+    }
+    else if (word.isMet && found->distance > kToldLine)
+    {
+      word.remark = away;
     }
   }
   else if (constraint.curve >= outcomes.size())

@@ -45,7 +45,8 @@ struct ConstraintMeasure
   double deviation = 0;
   double deviation95 = 0; ///< the 95th percentile of what deviation is the mean of
   const char* unit = "";
-  std::string reason; ///< why it is not met; where it is, empty or what is to be known of it
+  std::string reason; ///< why it is not met; empty where it is
+  std::string remark; ///< what else is to be known of it, met or not; mostly empty
 
   static ConstraintMeasure unknown(const Vector3& place, const char* unit, std::string reason);
 };
@@ -110,8 +111,12 @@ public:
   /// "edge lengths": from the place to the nearest point of the quads with the valence, on boundaries one more than the
   /// edges there; of a regular one 0, if the nearest point is one.
   ConstraintMeasure valence(const Vector3& place, int asked);
-  /// The same of a vertex that was moved: at its new place, its old one is regular, and no irregular point lies within
-  /// an edge length of the new one that is not among the constraint's.
+  /// The same where an operation has changed a vertex. irregular: all that the quads were to have with it; null: not
+  /// known. Also a regular one is met where all irregular points within an edge length are among these, as smoothing
+  /// brings some nearer; one of another valence only there.
+  ConstraintMeasure changedValence(
+    const Vector3& place, int asked, const std::vector<ValencePlace>* irregular);
+  /// The same of a vertex that was moved: at its new place, and at its old one.
   ConstraintMeasure move(const PlacedConstraint& constraint);
   /// "edge lengths": of a connection or cycle, met where there is a straight chain of edges that ends where the line
   /// does, or closes within kMetCycle of it: the largest distance from the chain to the line or back. outcomes: see

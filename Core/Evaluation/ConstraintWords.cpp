@@ -61,7 +61,7 @@ public:
   {
     ConstraintWord word = measured(i);
     const std::string off = measures_.offSurface(asked_.placed[i].given);
-    word.reason = withRemark(word.reason, off);
+    word.remark = withRemark(word.remark, off);
     word.isOffSurface = !off.empty();
     return word;
   }
@@ -280,8 +280,8 @@ std::vector<std::string> offSurfaceNotices(const std::vector<ConstraintWord>& wo
   {
     if (word.isOffSurface)
     {
-      notices.push_back(
-        std::string(word.kind) + " " + std::to_string(word.source) + ": " + word.reason);
+      notices.push_back(std::string(word.kind) + " " + std::to_string(word.source) + ": " +
+        withRemark(word.reason, word.remark));
     }
   }
   return notices;

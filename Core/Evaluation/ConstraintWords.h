@@ -30,7 +30,7 @@ struct ConstraintWord : ConstraintMeasure
 {
   const char* kind = "";
   std::int64_t source = -1;
-  bool isOffSurface = false; ///< one of its points; the reason says which
+  bool isOffSurface = false; ///< one of its points; the remark says which
 };
 
 /// mesh: what was made, without quads where there are none. sizes: what was asked for at its points, #points, or empty.

@@ -60,6 +60,10 @@ public:
       withoutMap_.emplace(trianglesOf(result.fixed));
       onWithoutMap_ = kOnePlace * result.targetEdgeLength;
     }
+    if (composed.shown)
+    {
+      irregular_ = expectedIrregular(*composed.shown, isometryOf(symmetric));
+    }
     std::size_t guides = 0;
     for (const PlacedPart& part : composed.parts)
     {
@@ -79,8 +83,8 @@ public:
       const ConstraintMeasure measure = measureOf(constraint);
       const std::string off = measures_.offSurface(pointsOf(constraint.content));
       words.push_back({ constraint.id, kindOf(constraint.content), constraint.name(), measure.place,
-        measure.isMet, measure.deviation, measure.deviation95, measure.unit,
-        withRemark(measure.reason, off), !off.empty() });
+        measure.isMet, measure.deviation, measure.deviation95, measure.unit, measure.reason,
+        withRemark(measure.remark, off), !off.empty() });
     }
     return words;
   }
@@ -95,7 +99,7 @@ public:
   }
   ConstraintMeasure operator()(const SizeAt& at);
   ConstraintMeasure operator()(const SizeRegion& region);
-  ConstraintMeasure operator()(const IrregularEdit& edit) { return irregularEdit(edit); }
+  ConstraintMeasure operator()(const IrregularEdit&) { return irregularEdit(); }
   ConstraintMeasure operator()(const Connection&) { return line(ConstraintKind::Connection); }
   ConstraintMeasure operator()(const Cycle&) { return line(ConstraintKind::Cycle); }
   ConstraintMeasure operator()(const MirrorSymmetry&)
@@ -111,7 +115,7 @@ public:
 
 private:
   ConstraintMeasure judgeSymmetry(const char* unlike) const;
-  ConstraintMeasure irregularEdit(const IrregularEdit& edit);
+  ConstraintMeasure irregularEdit();
   std::vector<Vector3> otherChanges();
   std::string whoCounts(const std::vector<WeightedPlace>& places, bool isSize);
   using Cover = std::function<bool(const Vector3&)>;
@@ -168,7 +172,8 @@ private:
   }
 
   ConstraintMeasure line(ConstraintKind kind);
-  bool isBesideGoal(const Vector3& place);
+  /// All that the quads are to have; null: not known.
+  const std::vector<ValencePlace>* irregular() const { return irregular_ ? &*irregular_ : nullptr; }
 
   const SurfaceInput& surface_;
   const SurfacePlaces& places_;
@@ -179,6 +184,7 @@ private:
   double madeEdgeLength_;            ///< of quads of size 1, by how many there are
   const SymmetricResult* symmetric_; ///< null: the quads were not made so
   ConstraintMeasures measures_;
+  std::optional<std::vector<ValencePlace>> irregular_;
   std::optional<NearestTriangle> withoutMap_; ///< faces that have none
   double onWithoutMap_ = 0;                   ///< so near places lie on these
   std::size_t mostPlaces_ = 0;
@@ -186,38 +192,9 @@ private:
   std::size_t at_ = 0; ///< of the constraint
 };
 
-/// Where a valence is looked for: of a vertex that an operation has made regular at the point that was given for it, as
-/// smoothing moves vertices off their places of the map, and another one may be nearer to that.
-Vector3 placeInQuads(const IrregularEdit& edit, const Vector3& place, int asked)
-{
-  return asked != kRegularValence
-    ? place
-    : *std::min_element(edit.points.begin(), edit.points.end(),
-        [&](const Vector3& a, const Vector3& b)
-        { return (a - place).squaredNorm() < (b - place).squaredNorm(); });
-}
-
-/// Whether it is the place of a vertex that a move has made one with its own, which is where that was seen.
-bool isJoined(const IrregularEdit& edit, const Vector3& place, int asked)
-{
-  constexpr std::size_t kChangesOfTwoAtThird = 3;
-  return edit.operation == IrregularOperation::Move && asked == kRegularValence &&
-    edit.changes.size() == kChangesOfTwoAtThird &&
-    placeInQuads(edit, place, asked) == edit.points.back();
-}
-
-/// Whether an irregular vertex comes so near to the place that its point is the nearest one there.
-bool SessionJudge::isBesideGoal(const Vector3& place)
-{
-  const double near = kMetDistance * measures_.edgeLengthAt(place);
-  return std::any_of(part_->valences.begin(), part_->valences.end(),
-    [&](const auto& goal)
-    { return goal.second != kRegularValence && (goal.first - place).norm() <= near; });
-}
-
 /// The vertices that it changed last have their valences in the quads; and of the last operation: all others are
 /// where they were. The deviation is that of the vertices.
-ConstraintMeasure SessionJudge::irregularEdit(const IrregularEdit& edit)
+ConstraintMeasure SessionJudge::irregularEdit()
 {
   ConstraintMeasure measure;
   measure.place = part_->place;
@@ -226,11 +203,7 @@ ConstraintMeasure SessionJudge::irregularEdit(const IrregularEdit& edit)
   measure.isMet = true;
   for (const auto& [place, asked] : part_->valences)
   {
-    if (isJoined(edit, place, asked) || (asked == kRegularValence && isBesideGoal(place)))
-    {
-      continue;
-    }
-    const ConstraintMeasure there = measures_.valence(placeInQuads(edit, place, asked), asked);
+    const ConstraintMeasure there = measures_.changedValence(place, asked, irregular());
     const bool isFarther = !(there.deviation <= measure.deviation); // or there is none
     if (isFarther || (measure.isMet && !there.isMet))
     {
@@ -284,15 +257,12 @@ std::vector<Vector3> SessionJudge::otherChanges()
     {
       drawn.insert(drawn.end(), part.path.begin(), part.path.end());
     }
-    const auto* edit = std::get_if<IrregularEdit>(&constraints_[i]->content);
     for (const auto& [place, valence] : part.valences)
     {
       told.push_back(place);
-      const Vector3 looked = edit != nullptr ? placeInQuads(*edit, place, valence) : place;
-      const bool isLooked = edit == nullptr || !isJoined(*edit, place, valence);
-      if (isLooked && !measures_.valence(looked, valence).isMet)
+      if (!measures_.changedValence(place, valence, irregular()).isMet)
       {
-        failed.push_back(looked);
+        failed.push_back(place);
       }
     }
     if (std::holds_alternative<ValenceAt>(constraints_[i]->content))

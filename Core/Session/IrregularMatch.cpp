@@ -153,6 +153,22 @@ std::vector<IrregularVertex> irregularPoints(const QuadMesh& quads)
   return irregular;
 }
 
+std::vector<ValencePlace> expectedIrregular(
+  const std::vector<IrregularVertex>& shown, const std::optional<Isometry>& symmetry)
+{
+  std::vector<ValencePlace> expected;
+  expected.reserve(shown.size() * (symmetry ? symmetry->order : 1));
+  for (const IrregularVertex& vertex : shown)
+  {
+    for (int power = 0; power < (symmetry ? symmetry->order : 1); ++power)
+    {
+      expected.push_back(
+        { power == 0 ? vertex.place : symmetry->image(vertex.place, power), vertex.valence });
+    }
+  }
+  return expected;
+}
+
 ShownPlaces shownPlaces(const std::vector<IrregularVertex>& irregular, const QuadMesh& quads)
 {
   constexpr double kReachOfSmoothing = 2; // edge lengths

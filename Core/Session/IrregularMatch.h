@@ -5,6 +5,7 @@
 
 #include "Quads/QuadMesh.h"
 #include "Session/Constraints.h"
+#include "Symmetry/Isometry.h"
 
 #include <cstddef>
 #include <map>
@@ -28,6 +29,10 @@ IrregularMatch matchIrregular(const std::vector<IrregularVertex>& expected,
 /// Points of the quads whose valence is not that of a regular one, on features and boundaries too; on boundaries it is
 /// one more than the edges. In the order of places.
 std::vector<IrregularVertex> irregularPoints(const QuadMesh& quads);
+
+/// What the quads are to have: those of the list, and their images in a symmetry of the quads.
+std::vector<ValencePlace> expectedIrregular(
+  const std::vector<IrregularVertex>& shown, const std::optional<Isometry>& symmetry);
 
 /// Where the quads show an irregular vertex, from which smoothing has moved it.
 struct ShownPlace

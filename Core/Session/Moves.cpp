@@ -204,17 +204,15 @@ std::string whyNotMoved(const RemeshResult& made, const QuadsBefore& before)
 }
 
 /// To those that are done, all irregular vertices of the quads with them.
-void tellIrregular(
-  const std::optional<std::vector<IrregularVertex>>& shown, std::vector<PlacedConstraint>& placed)
+void tellIrregular(const std::optional<std::vector<IrregularVertex>>& shown,
+  const UncutResult& made, std::vector<PlacedConstraint>& placed)
 {
-  auto irregular = std::make_shared<std::vector<ValencePlace>>();
-  for (const IrregularVertex& vertex : shown.value_or(std::vector<IrregularVertex>()))
-  {
-    irregular->push_back({ vertex.place, vertex.valence });
-  }
+  const auto irregular = shown ? std::make_shared<const std::vector<ValencePlace>>(
+                                   expectedIrregular(*shown, isometryOf(&made)))
+                               : nullptr;
   for (PlacedConstraint& constraint : placed)
   {
-    if (isMove(constraint) && constraint.whyNot.empty() && shown)
+    if (isMove(constraint) && constraint.whyNot.empty())
     {
       constraint.irregular = irregular;
     }
@@ -267,7 +265,7 @@ UncutResult makeMoves(const SurfaceInput& input, const RemeshOptions& options, c
           "moves may change irregular vertices on features, as these cannot be held: " +
           whyNotHeld);
       }
-      tellIrregular(composed.shown, placed);
+      tellIrregular(composed.shown, made, placed);
       tellLeftOut(placed, notices);
       return made;
     }

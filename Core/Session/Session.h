@@ -30,9 +30,10 @@ struct ConstraintReport
   double deviation = 0;   ///< in unit
   double deviation95 = 0; ///< the 95th percentile of what deviation is the mean of
   std::string unit;       ///< "degrees", "edge lengths", "valence", "factor", "diagonals"
-  std::string
-    reason; ///< why it is not met, and which of its points lies off the surface; empty: neither
-  /// A point that was drawn lies farther than half an edge length off the surface; the reason and a notice say which.
+  std::string reason;     ///< why it is not met; empty where it is
+  /// What else is to be known of it, met or not: how far a chain is from its line, which point lies off the surface.
+  std::string remark;
+  /// A point that was drawn lies farther than half an edge length off the surface; the remark and a notice say which.
   bool isOffSurface = false;
 };
 

@@ -118,7 +118,7 @@ std::string reportText(const SessionReport& report)
     json["constraints"].push_back({ { "id", word.id }, { "kind", word.kind }, { "text", word.text },
       { "place", { word.place.x(), word.place.y(), word.place.z() } }, { "met", word.isMet },
       { "deviation", word.deviation }, { "deviation_95", word.deviation95 }, { "unit", word.unit },
-      { "reason", word.reason } });
+      { "reason", word.reason }, { "remark", word.remark } });
   }
   return json.dump();
 }

@@ -22,7 +22,7 @@ void changeSettings(Session& session, const std::string& text);
 /// A list of the constraints with "id" and "revision"; what the session has made of irregular operations is left out.
 std::string constraintsText(const Session& session);
 /// {"ok", "status", "message", "stages": {name: seconds}, "reused", "runs", "seconds", "notices",
-/// "constraints": [{"id", "kind", "text", "place", "met", "deviation", "deviation_95", "unit", "reason"}]};
+/// "constraints": [{"id", "kind", "text", "place", "met", "deviation", "deviation_95", "unit", "reason", "remark"}]};
 /// null is what could not be measured.
 std::string reportText(const SessionReport& report);
 /// {"settings", "only_first", "only_second", "changed", "results": null or {"quads", "irregular": two each, "distance",

@@ -233,7 +233,7 @@ private:
     {
       if (word.isOffSurface)
       {
-        report.notices.push_back(word.text + ": " + word.reason);
+        report.notices.push_back(word.text + ": " + withRemark(word.reason, word.remark));
       }
     }
   }

@@ -47,6 +47,16 @@ SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options
   }
 }
 
+std::optional<Isometry> isometryOf(const MadeSymmetry* made)
+{
+  if (made == nullptr || (made->mirrorPoint.empty() && made->rotatedPoint.empty()))
+  {
+    return std::nullopt;
+  }
+  return made->rotation ? Isometry::of(made->rotation->axis, made->rotation->order)
+                        : Isometry::of(made->plane);
+}
+
 ConstraintWord judgeSymmetry(const MadeSymmetry& made)
 {
   ConstraintWord word;

@@ -75,6 +75,9 @@ struct MadeSymmetry
   bool isAlike = true;
 };
 
+/// None for null, and where no quads were made.
+std::optional<Isometry> isometryOf(const MadeSymmetry* made);
+
 struct SymmetricResult : MadeSymmetry
 {
   /// Of the whole surface are the quads, the surface, the map, its turns, charts and certificate, and the number of

@@ -39,6 +39,7 @@ vtkSmartPointer<vtkTable> writeConstraintTable(const std::vector<ConstraintWord>
   auto deviation95 = newArray<vtkDoubleArray>("Deviation95");
   auto unit = newArray<vtkStringArray>("Unit");
   auto reason = newArray<vtkStringArray>("Reason");
+  auto remark = newArray<vtkStringArray>("Remark");
   for (std::size_t i = 0; i < words.size(); ++i)
   {
     const ConstraintWord& word = words[i];
@@ -53,10 +54,11 @@ vtkSmartPointer<vtkTable> writeConstraintTable(const std::vector<ConstraintWord>
     deviation95->InsertNextValue(word.deviation95);
     unit->InsertNextValue(word.unit);
     reason->InsertNextValue(word.reason);
+    remark->InsertNextValue(word.remark);
   }
   auto table = vtkSmartPointer<vtkTable>::New();
   for (vtkAbstractArray* column : std::initializer_list<vtkAbstractArray*>{
-         id, kind, source, x, y, z, met, deviation, deviation95, unit, reason })
+         id, kind, source, x, y, z, met, deviation, deviation95, unit, reason, remark })
   {
     table->AddColumn(column);
   }

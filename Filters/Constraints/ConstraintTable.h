@@ -18,7 +18,7 @@ namespace quadrille
 /// The first component of each tuple; empty for null.
 std::vector<double> valuesOf(vtkDataArray* array);
 
-/// Columns Id (0, 1, ...), Kind, SourceId, X, Y, Z, Met (0 or 1), Deviation, Deviation95, Unit, Reason. See
+/// Columns Id (0, 1, ...), Kind, SourceId, X, Y, Z, Met (0 or 1), Deviation, Deviation95, Unit, Reason, Remark. See
 /// vtkQuadRemesh.
 vtkSmartPointer<vtkTable> writeConstraintTable(const std::vector<ConstraintWord>& words);
 

@@ -202,7 +202,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         tells what was being tried; else RemeshError is raised. The same holds for time_limit.
     everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout,
         too. `constraints` of the info dict is a list of dicts, one for each guided region, stroke, curve, valence and
-        sizing: id, kind, source_id, place, met, deviation, deviation_95, unit and reason; see the user guide.
+        sizing: id, kind, source_id, place, met, deviation, deviation_95, unit, reason and remark; see the user
+        guide.
     spread: whether the mesh is this rank's piece of a surface that all ranks of VTK's global controller hold together
         (vtkMPIController under mpirun): all of them call remesh with the same arguments, an empty piece included. Each
         gets its share of the quads, with GlobalPointIds and GlobalCellIds, which tell where shares meet. An error is

@@ -219,7 +219,7 @@ def _details(places):
 def _constraints(table):
     """The rows of the constraint table as dicts, with the names of the command's report; None where not measured."""
     names = (("id", "Id"), ("kind", "Kind"), ("source_id", "SourceId"), ("met", "Met"), ("deviation", "Deviation"),
-             ("deviation_95", "Deviation95"), ("unit", "Unit"), ("reason", "Reason"))
+             ("deviation_95", "Deviation95"), ("unit", "Unit"), ("reason", "Reason"), ("remark", "Remark"))
 
     def known(number):
         return None if number != number else number

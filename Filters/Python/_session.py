@@ -262,9 +262,9 @@ class Session:
     def update(self):
         """Makes what the present state needs, and returns the report, a dict: "stages" that ran, with their seconds,
         "reused" stages ("all": nothing was to do), "runs", "seconds", "notices", and "constraints", a list of dicts
-        with id, kind, text, place, met, deviation, deviation_95, unit and reason. Raises RemeshError where there are no
-        quads. "stopped" is empty, or says what was being tried when a stop left the best quads so far; the next update
-        makes the result."""
+        with id, kind, text, place, met, deviation, deviation_95, unit, reason (why it is not met, else empty) and
+        remark (what else is to be known). Raises RemeshError where there are no quads. "stopped" is empty, or says what
+        was being tried when a stop left the best quads so far; the next update makes the result."""
         ok = self._session.Update()
         text = self._session.GetReport()
         self._check(ok)

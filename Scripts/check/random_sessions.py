@@ -531,9 +531,7 @@ class RandomSession:
             word = words.get(constraint["id"])
             if word is None:
                 continue
-            # Of one that is met a reason may tell that a point lies off the surface, or a chain beside its line.
-            needs = not word["met"] or any(told in word["reason"] for told in ("off the surface", "from the line"))
-            if needs != bool(word["reason"]):
+            if word["met"] == bool(word["reason"]):
                 self.problem(f"{word['text']} is met {word['met']}, reason {word['reason']!r}")
             if not all(isinstance(x, float) and math.isfinite(x) for x in word["place"]):
                 self.problem(f"{word['text']} has no place: {word['place']}")

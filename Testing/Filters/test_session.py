@@ -229,8 +229,9 @@ class SessionTest(unittest.TestCase):
         self.assertEqual(kinds, ["guide", "guide region", "feature", "valence", "size", "size region", "connection",
                                  "connection", "cycle"])
         for word in report["constraints"]:
+            self.assertEqual(word["met"], word["reason"] == "", word)
             is_far = word["met"] and word["kind"] in ("connection", "cycle") and word["deviation"] > 0.5
-            self.assertEqual(word["met"] and not is_far, word["reason"] == "", word)
+            self.assertEqual(is_far, word["remark"] != "", word)
         listed = made.constraints()
         self.assertEqual(listed[3]["valence"], 5)
         numpy.testing.assert_array_equal(listed[3]["point"], POINTS[500])

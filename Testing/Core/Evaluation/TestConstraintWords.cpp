@@ -343,12 +343,15 @@ TEST(ConstraintWords, ACycleIsMetWhereAChainClosesWhereverTheLineGoes)
   const std::vector<ConstraintWord> words = judgeConstraints(asked, mesh, {});
   ASSERT_EQ(words.size(), 4U);
   EXPECT_EQ(words[0].reason, "");
+  EXPECT_EQ(words[0].remark, "");
   EXPECT_TRUE(words[2].isMet);
-  EXPECT_NE(words[2].reason.find("up to 2 edge lengths away"), std::string::npos)
-    << words[2].reason;
+  EXPECT_EQ(words[2].reason, "");
+  EXPECT_NE(words[2].remark.find("up to 2 edge lengths away"), std::string::npos)
+    << words[2].remark;
   EXPECT_FALSE(words[3].isMet);
   EXPECT_NE(words[3].reason.find("up to 4 edge lengths away"), std::string::npos)
     << words[3].reason;
+  EXPECT_EQ(words[3].remark, "");
   EXPECT_TRUE(words[0].isMet) << words[0].reason;
   EXPECT_NEAR(words[0].deviation, 0.3, 1e-9);
   EXPECT_FALSE(words[1].isMet);

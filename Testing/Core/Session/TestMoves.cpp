@@ -4,9 +4,13 @@
 #include "SessionHelpers.h"
 
 #include "Evaluation/ConstraintMeasures.h"
+#include "Session/IrregularMatch.h"
 #include "Session/Moves.h"
+#include "Symmetry/Isometry.h"
 
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace quadrille
 {
@@ -120,6 +124,22 @@ TEST_F(Moves, ThatFeaturesAreNotHeldIsANoticeOfTheRun)
               "moves may change irregular vertices on features, as these cannot be held: they are "
               "not"),
     1);
+}
+
+TEST(ExpectedIrregular, HasTheImagesOfASymmetry)
+{
+  const std::vector<IrregularVertex> shown{ { Vector3(1, 2, 3), 5 }, { Vector3(4, 5, 6), 3 } };
+  EXPECT_EQ(expectedIrregular(shown, std::nullopt).size(), 2U);
+  const std::vector<ValencePlace> mirrored =
+    expectedIrregular(shown, Isometry::of(MirrorPlane{ Vector3::Zero(), Vector3::UnitX() }));
+  ASSERT_EQ(mirrored.size(), 4U);
+  EXPECT_EQ(mirrored[0].place, shown[0].place);
+  EXPECT_EQ(mirrored[3].place, Vector3(-4, 5, 6));
+  EXPECT_EQ(mirrored[3].valence, 3);
+  const std::vector<ValencePlace> turned =
+    expectedIrregular(shown, Isometry::of(RotationAxis{ Vector3::Zero(), Vector3::UnitZ() }, 4));
+  ASSERT_EQ(turned.size(), 8U);
+  EXPECT_TRUE(turned[2].place.isApprox(Vector3(-1, -2, 3)));
 }
 
 } // namespace

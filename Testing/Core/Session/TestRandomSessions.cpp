@@ -258,11 +258,8 @@ private:
     EXPECT_EQ(report.constraints.size(), session_.constraints().size());
     for (const ConstraintReport& word : report.constraints)
     {
-      // Of what is met only that a point is off the surface, or a chain off its line.
-      const bool isOffLine = word.reason.find("away from the line") != std::string::npos;
-      EXPECT_TRUE(word.isMet || !word.reason.empty()) << word.text;
-      EXPECT_TRUE(!word.isMet || word.isOffSurface || isOffLine || word.reason.empty())
-        << word.text << ": " << word.reason;
+      EXPECT_EQ(word.isMet, word.reason.empty()) << word.text << ": " << word.reason;
+      EXPECT_TRUE(!word.isOffSurface || !word.remark.empty()) << word.text;
       EXPECT_TRUE(word.place.allFinite()) << word.text;
     }
     if (!report.status.ok())

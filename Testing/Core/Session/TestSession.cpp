@@ -118,9 +118,14 @@ TEST(Session, PointsOffTheSurfaceAreToldWithTheirPlace)
   ASSERT_TRUE(report.status.ok()) << report.status.message;
   const ConstraintReport& word = report.constraints[0];
   EXPECT_TRUE(word.isOffSurface);
-  EXPECT_NE(word.reason.find("off the surface"), std::string::npos) << word.reason;
-  EXPECT_EQ(
-    std::count(report.notices.begin(), report.notices.end(), word.text + ": " + word.reason), 1);
+  EXPECT_NE(word.remark.find("off the surface"), std::string::npos) << word.remark;
+  EXPECT_EQ(word.isMet, word.reason.empty()) << word.reason;
+  EXPECT_EQ(std::count_if(report.notices.begin(), report.notices.end(),
+              [&](const std::string& notice) {
+                return notice.find(word.text + ": ") == 0 &&
+                  notice.find(word.remark) != std::string::npos;
+              }),
+    1);
   session.remove(1);
   session.add(ValenceAt{ place, 5 });
   EXPECT_FALSE(session.update().constraints[0].isOffSurface);
