@@ -13,6 +13,7 @@
 #include "vtkNew.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSMInputProperty.h"
 #include "vtkSMIntVectorProperty.h"
@@ -305,27 +306,29 @@ std::vector<Place> irregularVertices(vtkSMSourceProxy* filter)
   return places;
 }
 
-bool isOnLine(vtkSMSourceProxy* filter, const Place& vertex)
+bool isMovable(vtkSMSourceProxy* filter, const Place& vertex)
 {
-  bool isIt = false;
-  forEach<vtkPolyData>(fetched(filter, kFeatureLines),
+  bool isIt = true;
+  forEach<vtkPolyData>(fetched(filter, kIrregularVertices),
     [&](vtkPolyData& data)
     {
-      for (vtkIdType i = 0; i < data.GetNumberOfPoints() && !isIt; ++i)
+      vtkDataArray* movable = data.GetPointData()->GetArray("MovableValence");
+      for (vtkIdType i = 0; movable && i < data.GetNumberOfPoints(); ++i)
       {
         Place place;
         data.GetPoint(i, place.data());
-        isIt = place == vertex;
+        isIt = isIt && (place != vertex || movable->GetComponent(i, 0) != 0);
       }
     });
   return isIt;
 }
 
-std::vector<Segment> featureEdges(vtkSMSourceProxy* filter)
+std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter)
 {
-  std::vector<Segment> edges;
+  constexpr int kPlacesAnEdge = 4;
+  std::vector<Place> places;
   forEach<vtkPolyData>(fetched(filter, kFeatureLines),
-    [&edges](vtkPolyData& data)
+    [&places](vtkPolyData& data)
     {
       vtkDataArray* boundary = data.GetCellData()->GetArray("Boundary");
       for (vtkIdType i = 0; boundary && i < data.GetNumberOfCells(); ++i)
@@ -335,28 +338,19 @@ std::vector<Segment> featureEdges(vtkSMSourceProxy* filter)
         data.GetCellPoints(i, size, ids);
         for (vtkIdType k = 0; boundary->GetComponent(i, 0) == 0 && k + 1 < size; ++k)
         {
-          edges.emplace_back();
-          data.GetPoint(ids[k], edges.back()[0].data());
-          data.GetPoint(ids[k + 1], edges.back()[1].data());
+          Place from;
+          Place to;
+          data.GetPoint(ids[k], from.data());
+          data.GetPoint(ids[k + 1], to.data());
+          for (int step = 0; step < kPlacesAnEdge; ++step)
+          {
+            const double t = (step + 0.5) / kPlacesAnEdge;
+            places.push_back({ (1 - t) * from[0] + t * to[0], (1 - t) * from[1] + t * to[1],
+              (1 - t) * from[2] + t * to[2] });
+          }
         }
       }
     });
-  return edges;
-}
-
-std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter)
-{
-  constexpr int kPlacesAnEdge = 4;
-  std::vector<Place> places;
-  for (const auto& [from, to] : featureEdges(filter))
-  {
-    for (int step = 0; step < kPlacesAnEdge; ++step)
-    {
-      const double t = (step + 0.5) / kPlacesAnEdge;
-      places.push_back({ (1 - t) * from[0] + t * to[0], (1 - t) * from[1] + t * to[1],
-        (1 - t) * from[2] + t * to[2] });
-    }
-  }
   return places;
 }
 
@@ -488,7 +482,8 @@ std::optional<ConstraintWord> wordOnLast(vtkSMSourceProxy* filter, const std::st
         if (table.GetValueByName(row, "Kind").ToString() == kind)
         {
           word = { table.GetValueByName(row, "Met").ToInt() != 0,
-            table.GetValueByName(row, "Reason").ToString() };
+            table.GetValueByName(row, "Reason").ToString(),
+            table.GetValueByName(row, "Remark").ToString() };
         }
       }
     });

@@ -68,13 +68,10 @@ bool setNumber(vtkSMSourceProxy* constraint, const char* property, int value);
 /// The places of the irregular vertices of the quads that are there.
 std::vector<Place> irregularVertices(vtkSMSourceProxy* filter);
 
-/// Whether a vertex of the quads is on a feature or boundary, where it stays.
-bool isOnLine(vtkSMSourceProxy* filter, const Place& vertex);
+/// Whether a move takes this irregular vertex.
+bool isMovable(vtkSMSourceProxy* filter, const Place& vertex);
 
-/// The edges on the feature curves of the quads that are there, without boundaries.
-std::vector<Segment> featureEdges(vtkSMSourceProxy* filter);
-
-/// Places on these, four to an edge.
+/// Places on the feature curves of the quads that are there, four to an edge; not on boundaries.
 std::vector<Place> placesOnFeatures(vtkSMSourceProxy* filter);
 
 /// The constraint of the filter that draws a feature curve through a place, up to a distance; null: none does.
@@ -91,7 +88,8 @@ std::vector<Place> closedCut(vtkSMSourceProxy* source, const Place& origin, cons
 struct ConstraintWord
 {
   bool isMet = false;
-  std::string reason;
+  std::string reason; ///< why it is not met
+  std::string remark; ///< what else is to be known
 };
 
 /// Whether there is one that is not met.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqQuadVerdictWidget.h"
 
+#include "FittedWords.h"
 #include "MakeQuads.h"
 #include "RemeshConstraints.h"
 #include "RemeshProblems.h"
@@ -21,6 +22,7 @@
 
 #include <QApplication>
 #include <QEvent>
+#include <QFontMetrics>
 #include <QLabel>
 #include <QLocale>
 #include <QPushButton>
@@ -30,6 +32,7 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <string>
 
 namespace
 {
@@ -42,14 +45,19 @@ enum class Mood
   Failed
 };
 
+constexpr int kPadding = 4; // pixels
+/// More would push the number of quads off a panel of a small window; the tool tip has all of it.
+constexpr std::size_t kMostLines = 4;
+
 QString styleOf(Mood mood)
 {
   const char* colour = mood == Mood::Failed ? "#f6d5d5"
     : mood == Mood::Doubtful                ? "#fbe6c8"
     : mood == Mood::Well                    ? "#d6efd9"
                                             : "transparent";
-  return QString("QLabel { background: %1; color: %2; padding: 4px; border-radius: 3px; }")
-    .arg(colour, mood == Mood::NotRun ? "palette(text)" : "#202020");
+  return QString("QLabel { background: %1; color: %2; padding: %3px; border-radius: 3px; }")
+    .arg(colour, mood == Mood::NotRun ? "palette(text)" : "#202020")
+    .arg(kPadding);
 }
 
 /// The first sentence of the text, without the breaks that fields of one width need.
@@ -169,6 +177,11 @@ void pqQuadVerdictWidget::fit()
   const int margin = 2 * this->mapTo(this->Scrolled->widget(), QPoint(0, 0)).x();
   const int width =
     std::max(this->Scrolled->viewport()->width() - margin, this->Show->sizeHint().width());
+  const QFontMetrics metrics = this->Text->fontMetrics();
+  this->Text->setText(QString::fromStdString(quadrille::fittedWords(this->Words.toStdString(),
+    kMostLines,
+    [&metrics, width](const std::string& line)
+    { return metrics.horizontalAdvance(QString::fromStdString(line)) <= width - 2 * kPadding; })));
   this->Text->setMaximumWidth(width);
   this->Text->setMinimumHeight(0); // it would count as the text's
   this->Text->setFixedHeight(this->Text->heightForWidth(width));
@@ -192,8 +205,8 @@ void pqQuadVerdictWidget::refresh()
     : !textOf(this->proxy(), "OutcomeText").isEmpty() ? Mood::Failed
     : isWrong || isUnmet                              ? Mood::Doubtful
                                                       : Mood::Well;
-  this->Text->setText(
-    text.isEmpty() ? QString("Apply tells here what it made.") : firstLineOf(text));
+  this->Words = text.isEmpty() ? QString("Apply tells here what it made.") : firstLineOf(text);
+  this->Text->setText(this->Words);
   this->Text->setToolTip(text);
   this->Text->setStyleSheet(styleOf(mood));
   this->Show->setVisible(isWrong);

@@ -6,6 +6,7 @@
 #include "pqPropertyWidget.h"
 
 #include <QPointer>
+#include <QString>
 
 #include <cstddef>
 
@@ -46,6 +47,7 @@ private:
 
   vtkSMProperty* Verdict;
   QPointer<QScrollArea> Scrolled; ///< the panel
+  QString Words;                  ///< of which the text shows what has room
   QLabel* Text;
   QPushButton* Show;
   QPushButton* Apply;

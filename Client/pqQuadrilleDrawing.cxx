@@ -48,8 +48,6 @@ constexpr std::size_t kMostUnseen = 2;  // samples side by side with which a lin
 constexpr std::size_t kLeastPlaces = 3; // of a line
 constexpr double kBallReach = 14;       // pixels from the centre of a ball
 constexpr double kSameBall = 0.5;       // edge lengths
-constexpr double kBesideCut = 0.1;      // edge lengths between a cut of the surface and features
-constexpr double kBesideDrag = 0.3;     // the same of a line through samples
 constexpr int kBallsOutput = 4;
 constexpr int kConstraintsOutput = 5;
 constexpr float kBeforeAllOthers = 10; // priority of observers
@@ -99,8 +97,7 @@ QString hintOf(Tool tool)
              "Escape ends it.";
     case Tool::Loop:
       return "Loop: drag across a body for a loop round it, or back to where the drag began, with "
-             "the left button; a loop goes round something and across no sharp edge. Escape ends "
-             "it.";
+             "the left button; a loop goes round something. Escape ends it.";
     case Tool::Feature:
       return "Feature: drag over the surface with the left button where edges of the quads are to "
              "run; click on a feature curve to clear it. Escape ends it.";
@@ -536,7 +533,7 @@ void pqQuadrilleDrawing::finishLoop(vtkSMSourceProxy* filter)
   if (quadrille::isClosedPath(this->Path, kNearEnd * this->pixelRatio()))
   {
     const std::optional<Line> line = this->drawnLine(filter, true);
-    if (line && this->crossesNoFeature(filter, line->places, kBesideDrag))
+    if (line)
     {
       this->perform(filter, { "QuadLoop", { { "Points", coordinatesOf(line->places) } } });
     }
@@ -577,10 +574,6 @@ void pqQuadrilleDrawing::finishLoop(vtkSMSourceProxy* filter)
         "drag began.");
     return;
   }
-  if (!this->crossesNoFeature(filter, curve, kBesideCut))
-  {
-    return;
-  }
   const double edge = quadrille::edgeLength(filter).value_or(0);
   std::vector<Place> closed = curve;
   closed.push_back(curve.front());
@@ -591,22 +584,6 @@ void pqQuadrilleDrawing::finishLoop(vtkSMSourceProxy* filter)
   }
   line.pop_back();
   this->perform(filter, { "QuadLoop", { { "Points", coordinatesOf(line) } } });
-}
-
-//-----------------------------------------------------------------------------
-bool pqQuadrilleDrawing::crossesNoFeature(
-  vtkSMSourceProxy* filter, const std::vector<Place>& loop, double beside)
-{
-  std::vector<Place> closed = loop;
-  closed.push_back(loop.front());
-  const double within = beside * quadrille::edgeLength(filter).value_or(0);
-  if (quadrille::crossesEdge(closed, quadrille::featureEdges(filter), within))
-  {
-    say("Nothing was drawn: a sharp edge crosses this loop, and loops cross none. Draw it round "
-        "something on one side of sharp edges.");
-    return false;
-  }
-  return true;
 }
 
 //-----------------------------------------------------------------------------
@@ -635,9 +612,11 @@ void pqQuadrilleDrawing::grasp()
     ? this->ballAt(
         filter, this->Path.front(), "There is no ball here: press on a ball and drag it.")
     : std::nullopt;
-  if (ball && quadrille::isOnLine(filter, *ball))
+  if (ball && !quadrille::isMovable(filter, *ball))
   {
-    say("This ball is on a feature or boundary, whose vertices stay: drag one beside it.");
+    say(
+      "This ball stays, as grey ones do: it is on a feature or boundary, or in a face that has no "
+      "map. Drag a coloured one.");
   }
   else if (ball)
   {
@@ -934,10 +913,11 @@ void pqQuadrilleDrawing::tellOutcome(
   QString outcome = "no quads were made; Output Messages says why";
   if (word)
   {
-    const QString reason = word->reason.empty()
-      ? QString()
-      : QString(word->isMet ? ", but " : ", ") + word->reason.c_str();
-    outcome = (word->isMet ? "met" : "not met") + reason;
+    outcome = word->isMet ? QString("met") : QString("not met, ") + word->reason.c_str();
+    if (!word->remark.empty())
+    {
+      outcome += QString(word->isMet ? ", but " : "; ") + word->remark.c_str();
+    }
   }
   const int lost = quadrille::countUnmet(filter) - unmetBefore - (word && !word->isMet ? 1 : 0);
   const QString others = lost <= 0 ? QString()

@@ -108,9 +108,6 @@ private:
   void finishSize(vtkSMSourceProxy* filter);
   void finishMove(vtkSMSourceProxy* filter);
   void finishConnection(vtkSMSourceProxy* filter);
-  /// Whether that of a loop holds, or else a word to the user. beside: edge lengths within which they cross.
-  bool crossesNoFeature(
-    vtkSMSourceProxy* filter, const std::vector<quadrille::Place>& loop, double beside);
   /// The irregular vertex that is seen at the pixel, or none.
   std::optional<quadrille::Place> ballAt(
     vtkSMSourceProxy* filter, const quadrille::Pixel& pixel, const char* ifNone);

@@ -25,15 +25,16 @@
  *    quads with four sides, or rings or tori where there is no irregular vertex. Cells: `StartKind` and `EndKind` (0
  *    irregular vertex, 1 boundary, 2 the feature ends or begins here, 3 closed), `Feature` (1: all of it on features,
  *    0: none), `Separatrix` (1: the straight line has an irregular end); `QuadPointId` on points.
- * 4. the irregular vertices of the quads as vertices, with `Valence` (number of edges), `Index` (edges that are missing
- *    to a regular vertex), `OnBoundary` and `QuadPointId`.
+ * 4. the irregular vertices of the quads as vertices: `Valence` (number of edges), `MovableValence` (the same; 0: no
+ *    move takes it, as it is on a feature or boundary, or in a face that was filled), `Index` (edges missing to a
+ *    regular vertex), `OnBoundary` and `QuadPointId`.
  * 5. what the constraints of the inputs 1 to 6 became on the surface, see Filters/Constraints/Constraints.h.
  * 6. a vtkTable with a row for each constraint, in the order of the input: those of the surface's arrays (guides,
  *    feature edges, valences, sizes), then those of the inputs 1 to 6. `Id` (0, 1, ...), `Kind` ("guide array": a
  *    connected region, "guide stroke", "feature curve": of `FeatureEdges` a connected set, "valence", "size": the
  *    array), `SourceId` (line or point of its input; of arrays the first cell or point; -1 for sizes), `X`, `Y`, `Z`
  *    (where it deviates most; the vertex of a valence), `Met` (0 or 1), `Deviation` in `Unit`, `Deviation95`, `Reason`
- *    (why not met, else empty). What could not be measured is NaN.
+ *    (why not met, else empty), `Remark` (what else is to be known, met or not). What could not be measured is NaN.
  *    - "degrees", guides: the angle between the asked direction at the centre of a face and the nearer of the two
  *      families of edges of the quad there, in the plane of the face; the mean by area, and in `Deviation95` the 95th
  *      percentile. Met: a mean of at most 5.

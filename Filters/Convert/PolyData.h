@@ -72,6 +72,7 @@ constexpr const char* kFlatPointIds = "FlatPointIds";
 constexpr const char* kFlatPoints = "FlatPoints";
 constexpr const char* kSourceBarycentric = "SourceBarycentric";
 constexpr const char* kValence = "Valence";
+constexpr const char* kMovableValence = "MovableValence";
 constexpr const char* kPartial = "Partial";
 constexpr const char* kOnBoundary = "OnBoundary";
 constexpr const char* kLayoutPatch = "LayoutPatch";

@@ -434,8 +434,36 @@ vtkSmartPointer<vtkPolyData> writeSeparatrices(const QuadMesh& mesh, const QuadL
   return data;
 }
 
+/// Per point of the quads: it is on a feature or boundary, or none of its quads is a square of the map, as in faces
+/// that were filled. No irregular vertex of the map is there, which is what moves.
+std::vector<std::uint8_t> stayingPoints(const QuadMesh& mesh)
+{
+  const bool isFromMap = mesh.quadSourceWeights.size() == mesh.quads.size();
+  std::vector<std::uint8_t> stays(mesh.points.size(), isFromMap ? 1 : 0);
+  for (std::size_t q = 0; isFromMap && q < mesh.quads.size(); ++q)
+  {
+    if (mesh.quadSourceWeights[q] != std::array<double, 3>{})
+    {
+      for (const Index p : mesh.quads[q])
+      {
+        stays[p] = 0;
+      }
+    }
+  }
+  for (const QuadLine& line : mesh.lines)
+  {
+    stays[line.a] = stays[line.b] = 1;
+  }
+  for (std::size_t p = 0; p < mesh.points.size(); ++p)
+  {
+    stays[p] = mesh.onBoundary[p] != 0 ? 1 : stays[p];
+  }
+  return stays;
+}
+
 vtkSmartPointer<vtkPolyData> writeIrregular(const QuadMesh& mesh)
 {
+  const std::vector<std::uint8_t> stays = stayingPoints(mesh);
   std::vector<Index> found;
   const auto indexOf = [&mesh](std::size_t i)
   { return (mesh.onBoundary[i] != 0 ? 3 : 4) - mesh.valence[i]; };
@@ -450,6 +478,7 @@ vtkSmartPointer<vtkPolyData> writeIrregular(const QuadMesh& mesh)
   vtkSmartPointer<vtkPoints> points = newPoints(found.size());
   auto connectivity = newArray<vtkIdTypeArray>("", 1, found.size());
   auto valence = newArray<vtkIntArray>(arrays::kValence, 1, found.size());
+  auto movable = newArray<vtkIntArray>(arrays::kMovableValence, 1, found.size());
   auto index = newArray<vtkIntArray>(arrays::kIndex, 1, found.size());
   auto boundary = newArray<vtkUnsignedCharArray>(arrays::kOnBoundary, 1, found.size());
   auto quadPoint = newArray<vtkIdTypeArray>("QuadPointId", 1, found.size());
@@ -460,6 +489,7 @@ vtkSmartPointer<vtkPolyData> writeIrregular(const QuadMesh& mesh)
     points->SetPoint(id, mesh.points[p].data());
     connectivity->SetValue(id, id);
     valence->SetValue(id, mesh.valence[p]);
+    movable->SetValue(id, stays[p] != 0 ? 0 : mesh.valence[p]);
     index->SetValue(id, indexOf(p));
     boundary->SetValue(id, mesh.onBoundary[p]);
     quadPoint->SetValue(id, p);
@@ -467,11 +497,11 @@ vtkSmartPointer<vtkPolyData> writeIrregular(const QuadMesh& mesh)
   data->SetPoints(points);
   data->SetVerts(newCells(connectivity, 1));
   for (vtkDataArray* array :
-    std::initializer_list<vtkDataArray*>{ valence, index, boundary, quadPoint })
+    std::initializer_list<vtkDataArray*>{ valence, movable, index, boundary, quadPoint })
   {
     data->GetPointData()->AddArray(array);
   }
-  data->GetPointData()->SetActiveScalars(arrays::kValence);
+  data->GetPointData()->SetActiveScalars(arrays::kMovableValence);
   return data;
 }
 

@@ -78,7 +78,8 @@ struct QuadOutputs
   /// none), Separatrix. Points: QuadPointId.
   vtkSmartPointer<vtkPolyData> separatrices;
   /// Irregular vertices as vertices: those without 4 edges inside, without 3 on a boundary. Points: Valence (number of
-  /// edges; active), Index (how many are missing to a regular one), OnBoundary, QuadPointId.
+  /// edges), MovableValence (the same, and 0 where no move takes the vertex: on features and boundaries, and where no
+  /// quad is of the map; active), Index (how many are missing to a regular one), OnBoundary, QuadPointId.
   vtkSmartPointer<vtkPolyData> irregular;
   /// Arrays that could not be carried, as text.
   std::vector<std::string> notCarried;

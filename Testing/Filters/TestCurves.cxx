@@ -285,6 +285,8 @@ std::vector<std::pair<Vector3, int>> irregularOf(vtkQuadRemesh* filter)
   vtkPolyData* data = filter->GetIrregularVertices();
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
+    EXPECT_EQ(data->GetPointData()->GetArray("MovableValence")->GetTuple1(i),
+      data->GetPointData()->GetArray("Valence")->GetTuple1(i)); // nothing keeps them there
     found.emplace_back(
       data->GetPoint(i), static_cast<int>(data->GetPointData()->GetArray("Valence")->GetTuple1(i)));
   }

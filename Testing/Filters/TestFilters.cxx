@@ -124,6 +124,17 @@ TEST(QuadRemesh, CubeKeepsItsTwelveEdges)
     marked += __builtin_popcount(static_cast<unsigned>(bits->GetTuple1(i)));
   }
   EXPECT_EQ(marked, 2 * lines->GetNumberOfLines());
+  // Its corners are irregular, and no move takes them.
+  vtkPointData* irregular = filter->GetIrregularVertices()->GetPointData();
+  ASSERT_GE(irregular->GetNumberOfTuples(), 8);
+  vtkIdType corners = 0;
+  for (vtkIdType i = 0; i < irregular->GetNumberOfTuples(); ++i)
+  {
+    const double movable = irregular->GetArray("MovableValence")->GetTuple1(i);
+    corners += movable == 0 ? 1 : 0;
+    EXPECT_TRUE(movable == 0 || movable == irregular->GetArray("Valence")->GetTuple1(i));
+  }
+  EXPECT_EQ(corners, 8);
 }
 
 /// An array that is linear in the coordinates is reproduced exactly up to rounding by barycentric

@@ -4,6 +4,7 @@
 #include "PlyFile.h"
 #include "TestSurfaces.h"
 
+#include "Convert/Quads.h"
 #include "Features/Features.h"
 #include "Prepare/Prepare.h"
 #include "Quads/QuadLayout.h"
@@ -21,6 +22,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -750,6 +752,39 @@ TEST(QuadOutputs, SameBytesForAnyNumberOfThreads)
       }
     }
   }
+}
+
+// A strip of quads of which the first three are no squares of the map, as in a face that was filled.
+TEST(QuadOutputs, OnlyVerticesOfTheMapCanBeMoved)
+{
+  QuadMesh mesh;
+  constexpr Index kLength = 8;
+  for (Index i = 0; i <= kLength; ++i)
+  {
+    mesh.points.emplace_back(i, 0, 0);
+    mesh.points.emplace_back(i, 1, 0);
+  }
+  for (Index i = 0; i < kLength; ++i)
+  {
+    mesh.quads.push_back({ 2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1 });
+    mesh.quadSourceWeights.push_back(
+      i < 3 ? std::array<double, 3>{} : std::array<double, 3>{ 0.5, 0.25, 0.25 });
+  }
+  mesh.valence.assign(mesh.points.size(), 5);
+  mesh.onBoundary.assign(mesh.points.size(), 0);
+  mesh.onBoundary[2 * 7] = 1;
+  mesh.lines.push_back({ 2 * 5, 2 * 6 });
+  const vtkSmartPointer<vtkPolyData> irregular = writePreview(mesh).irregular;
+  vtkDataArray* movable = irregular->GetPointData()->GetArray("MovableValence");
+  ASSERT_EQ(irregular->GetNumberOfPoints(), 2 * kLength + 2);
+  for (vtkIdType p = 0; p < irregular->GetNumberOfPoints(); ++p)
+  {
+    const bool stays = p < 2 * 3 || p == 2 * 5 || p == 2 * 6 || p == 2 * 7;
+    EXPECT_EQ(movable->GetTuple1(p), stays ? 0 : 5) << p;
+  }
+  mesh.quadSourceWeights.clear(); // as where quads are put back onto another surface
+  EXPECT_EQ(
+    writePreview(mesh).irregular->GetPointData()->GetArray("MovableValence")->GetTuple1(0), 5);
 }
 
 TEST(QuadOutputs, ArraysThatAreTooShortAreANotice)

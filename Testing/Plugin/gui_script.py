@@ -30,12 +30,14 @@ try:
     # ParaView takes what it picks for a cell of the first output.
     check(irregular.Pickable == 0 and simple.GetDisplayProperties(quads, view).Pickable == 1,
           "balls can be picked, or quads cannot")
-    check(irregular.ColorArrayName[1] == "Valence", f"irregular vertices are coloured by {irregular.ColorArrayName}")
-    colours = simple.GetColorTransferFunction("Valence")
-    check(colours.InterpretValuesAsCategories == 1 and colours.Annotations[2:4] == ["3", "3"],
-          "valences have no colours of their own")
-    blue, red = colours.IndexedColors[3:6], colours.IndexedColors[9:12]
-    check(blue[2] > 0.8 > blue[0] and red[0] > 0.8 > red[2], f"3 and 5 are coloured {blue} and {red}")
+    check(irregular.ColorArrayName[1] == "MovableValence",
+          f"irregular vertices are coloured by {irregular.ColorArrayName}")
+    colours = simple.GetColorTransferFunction("MovableValence")
+    check(colours.InterpretValuesAsCategories == 1 and colours.Annotations[0:2] == ["0", "stays"] and
+          colours.Annotations[4:6] == ["3", "3"], "valences have no colours of their own")
+    grey, blue, red = (colours.IndexedColors[k:k + 3] for k in (0, 6, 9))
+    check(grey[0] == grey[1] == grey[2] and blue[2] > 0.8 > blue[0] and red[0] > 0.8 > red[2],
+          f"what stays, 3 and 5 are coloured {grey}, {blue} and {red}")
     # So are constraints by whether they are met.
     quads.Constraints = [QuadValence(Point=[0, 0, 12], Valence=5)]
     constraints = simple.Show(simple.OutputPort(quads, 5), view)
