@@ -44,48 +44,6 @@ double distanceToSegment(const Place& place, const Place& begin, const Place& en
     { begin[0] + share * along[0], begin[1] + share * along[1], begin[2] + share * along[2] });
 }
 
-/// By 30 degrees at least; one without length is across nothing.
-bool areAcross(const Segment& first, const Segment& second)
-{
-  constexpr double kSquaredCosine = 0.75;
-  const Place u = difference(first[1], first[0]);
-  const Place v = difference(second[1], second[0]);
-  const double squares = dot(u, u) * dot(v, v);
-  return squares > 0 && dot(u, v) * dot(u, v) <= kSquaredCosine * squares;
-}
-
-/// Of two that are not parallel: between the nearest places of their lines where both have these, else from an end.
-double distanceOfSegments(const Segment& first, const Segment& second)
-{
-  const Place u = difference(first[1], first[0]);
-  const Place v = difference(second[1], second[0]);
-  const Place w = difference(second[0], first[0]);
-  const double uu = dot(u, u);
-  const double uv = dot(u, v);
-  const double vv = dot(v, v);
-  const double det = uu * vv - uv * uv;
-  const double s = (dot(w, u) * vv - dot(w, v) * uv) / det;
-  const double t = (dot(w, u) * uv - dot(w, v) * uu) / det;
-  if (s >= 0 && s <= 1 && t >= 0 && t <= 1)
-  {
-    const Place a{ first[0][0] + s * u[0], first[0][1] + s * u[1], first[0][2] + s * u[2] };
-    const Place b{ second[0][0] + t * v[0], second[0][1] + t * v[1], second[0][2] + t * v[2] };
-    return distance(a, b);
-  }
-  return std::min({ distanceToSegment(first[0], second[0], second[1]),
-    distanceToSegment(first[1], second[0], second[1]),
-    distanceToSegment(second[0], first[0], first[1]),
-    distanceToSegment(second[1], first[0], first[1]) });
-}
-
-/// 0 of none.
-double medianOf(std::vector<double> numbers)
-{
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return numbers.empty() ? 0 : *middle;
-}
-
 } // namespace
 
 double lengthOf(const std::vector<Pixel>& path)
@@ -182,22 +140,6 @@ std::vector<Place> longestOnOneSheet(
     }
   }
   return longest;
-}
-
-bool crossesEdge(const std::vector<Place>& line, const std::vector<Segment>& edges, double within)
-{
-  for (std::size_t i = 1; i < line.size(); ++i)
-  {
-    const Segment piece{ line[i - 1], line[i] };
-    const bool isCrossed = std::any_of(edges.begin(), edges.end(),
-      [&](const Segment& edge)
-      { return areAcross(piece, edge) && distanceOfSegments(piece, edge) <= within; });
-    if (isCrossed)
-    {
-      return true;
-    }
-  }
-  return false;
 }
 
 std::vector<std::size_t> keptPlaces(const std::vector<Place>& places, double tolerance)

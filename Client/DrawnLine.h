@@ -36,13 +36,6 @@ bool isClosedPath(const std::vector<Pixel>& path, double near);
 std::vector<Place> longestOnOneSheet(
   const std::vector<std::optional<Place>>& places, double far, std::size_t mostUnseen);
 
-/// From one place to another.
-using Segment = std::array<Place, 2>;
-
-/// Whether a polyline comes as near as `within` to one of the edges where the two differ in direction by 30 degrees at
-/// least. Beside an edge it may run as near as it likes.
-bool crossesEdge(const std::vector<Place>& line, const std::vector<Segment>& edges, double within);
-
 /// The ids of those places that keep the polyline through them within the tolerance of all [Douglas and Peucker 1973];
 /// the first and the last are among them.
 std::vector<std::size_t> keptPlaces(const std::vector<Place>& places, double tolerance);

@@ -76,12 +76,12 @@ std::int64_t lengthAlong(FixedVec2 p, int axis)
 }
 
 LineStop followThrough(const UvMesh& map, UvDirection direction, std::int64_t maximumLength,
-  const std::vector<std::uint8_t>& flags)
+  const std::vector<std::uint8_t>& flags, bool stopAtCurves)
 {
   LineStop end;
   while (end.length < maximumLength)
   {
-    const UvRay ray = followLine(map, direction, maximumLength - end.length, true);
+    const UvRay ray = followLine(map, direction, maximumLength - end.length, stopAtCurves);
     if (!ray.meetsVertex())
     {
       end.curve = ray.curve;

@@ -25,9 +25,10 @@ struct LineStop
   std::int64_t length = 0;      ///< to the vertex
 };
 
-/// Along an axis, through straight vertices, until one that is flagged or what ends every line.
+/// Along an axis, through straight vertices, until one that is flagged or what ends every line: boundaries and, with
+/// stopAtCurves, curves.
 LineStop followThrough(const UvMesh& map, UvDirection direction, std::int64_t maximumLength,
-  const std::vector<std::uint8_t>& flags);
+  const std::vector<std::uint8_t>& flags, bool stopAtCurves = true);
 
 /// Makes the line an edge, or several, through the vertices on its way. False where it meets something else.
 bool lockParts(UvMesh& map, UvEditor& editor, UvDirection direction, std::int64_t length);

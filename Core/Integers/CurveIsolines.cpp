@@ -219,8 +219,7 @@ RequestedLine connectionOf(
   const std::optional<FacePath> path = pathAlong(mesh, curve, a.vertex, b.vertex);
   if (!path)
   {
-    leaveOut(
-      result, "a feature or nothing at all lies between its ends: connections cross no feature");
+    leaveOut(result, "no way over the surface leads from one of its ends to the other");
     return result;
   }
   const Vector3 begin = mesh.position[a.vertex], end = mesh.position[b.vertex];
@@ -241,8 +240,7 @@ RequestedLine cycleOf(const Mesh& mesh, const CrossField& field, const CurveRequ
   const std::optional<FacePath> path = closedPathAlong(mesh, curve);
   if (!path)
   {
-    leaveOut(result,
-      "a feature cuts it, or it closes on nothing: draw it round something, across no feature");
+    leaveOut(result, "it closes on nothing: draw it round something");
     return result;
   }
   const WayInField way = wayInField(mesh, field, *path, nullptr, nullptr);
@@ -503,7 +501,7 @@ bool hasGridLine(const Mesh& mesh, const CrossField& field, const std::vector<Fi
   const std::vector<UvDirection> directions = axisDirections(map, wanted.outcome.from);
   return std::any_of(directions.begin(), directions.end(),
     [&](const UvDirection& direction)
-    { return followThrough(map, direction, most, integer).vertex == wanted.outcome.to; });
+    { return followThrough(map, direction, most, integer, false).vertex == wanted.outcome.to; });
 }
 
 } // namespace quadrille

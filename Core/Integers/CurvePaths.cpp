@@ -19,6 +19,8 @@ namespace
 /// enough that one that fell on the wrong side of a thin part is rare.
 constexpr double kEdgesPerWayPoint = 3;
 constexpr std::size_t kMostWayPoints = 64;
+/// In edges of the mesh: a way crosses a feature where the curve does, and not to and fro beside it.
+constexpr double kPriceOfFeature = 2;
 
 double meanEdge(const Mesh& mesh)
 {
@@ -111,12 +113,12 @@ public:
       }
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        if (mesh_.isConstrained(h))
+        if (mesh_.isBoundary(h))
         {
           continue;
         }
         const Index g = Mesh::face(mesh_.twin[h]);
-        const double next = reached +
+        const double next = reached + (mesh_.isConstrained(h) ? kPriceOfFeature * edge_ : 0) +
           (mesh_.middleOfFace(g) - mesh_.middleOfFace(f)).norm() * (price(f) + price(g)) / 2;
         if (next < cost[g])
         {

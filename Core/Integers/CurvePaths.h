@@ -13,7 +13,7 @@
 namespace quadrille
 {
 
-/// From face to face through unconstrained edges.
+/// From face to face, also across features.
 struct FacePath
 {
   Index first = kInvalidIndex; ///< the face that it begins in
@@ -30,9 +30,9 @@ std::vector<Vector3> sampleCurve(const CurveRequest& curve, double spacing);
 /// From p to the nearest place on a curve that was sampled; infinite where that is a single point.
 double distanceToCurve(const std::vector<Vector3>& samples, const Vector3& p);
 
-/// The way along the curve from the star of vertex a to that of b. Empty where only features, or nothing, join them.
+/// The way along the curve from the star of vertex a to that of b. Empty where nothing joins them.
 std::optional<FacePath> pathAlong(const Mesh& mesh, const CurveRequest& curve, Index a, Index b);
-/// The closed way along a cycle. Empty where features cut it, or where it closes on nothing.
+/// The closed way along a cycle. Empty where it closes on nothing.
 std::optional<FacePath> closedPathAlong(const Mesh& mesh, const CurveRequest& curve);
 
 /// Its direction in each of its faces, over some faces before and behind; zero where it has none.

@@ -128,23 +128,6 @@ TEST(DrawnLine, ARowGoesOnBesideARayThatSlippedThrough)
   EXPECT_EQ(after.front(), *places[7]);
 }
 
-TEST(DrawnLine, ALineCrossesAnEdgeButDoesNotWhereItRunsBesideIt)
-{
-  const std::vector<Place> line{ { -2, 0, 0 }, { 0, 0, 0 }, { 0, 2, 0 } };
-  const auto crosses = [&line](const Place& begin, const Place& end, double within)
-  {
-    const Segment elsewhere{ Place{ 9, 9, 9 }, Place{ 9, 9, 8 } };
-    return crossesEdge(line, { elsewhere, Segment{ begin, end } }, within);
-  };
-  EXPECT_TRUE(crosses({ -1, -1, 0 }, { -1, 1, 0 }, 0));
-  EXPECT_TRUE(crosses({ -1, -1, 0.125 }, { -1, 1, 0.125 }, 0.125));
-  EXPECT_FALSE(crosses({ -1, -1, 0.25 }, { -1, 1, 0.25 }, 0.125));
-  EXPECT_FALSE(crosses({ -1, 0.5, 0 }, { -1, 1, 0 }, 0.25)) << "it ends before";
-  EXPECT_FALSE(crosses({ -1.5, 0.125, 0 }, { -0.5, 0.125, 0 }, 0.25)) << "it runs beside";
-  EXPECT_TRUE(crosses({ 0, 0, -1 }, { 0, 0, 1 }, 0)) << "where the line bends";
-  EXPECT_FALSE(crosses({ -1, 0, 0 }, { -1, 0, 0 }, 1)) << "it has no length";
-}
-
 TEST(DrawnLine, KeptPlacesAreWithinTheToleranceOfAll)
 {
   std::vector<Place> places;

@@ -211,23 +211,12 @@ def outline_right_of(pixel):
 
 def cut_closes(path):
     """Whether the plane through a drag and the eye cuts the quads there in a closed curve."""
-    curve, _, _ = cut_of(path)
+    curve = cut_of(path)
     return math.dist(curve[0], curve[-1]) == 0
 
 
-def cut_crosses(path):
-    """The distance of that curve from the nearest place where a feature of the quads passes the plane; large: none."""
-    curve, origin, normal = cut_of(path)
-    ends = features()
-    heights = (ends - origin) @ normal
-    passing = heights[:, 0] * heights[:, 1] < 0
-    share = heights[passing, 0] / (heights[passing, 0] - heights[passing, 1])
-    places = ends[passing, 0] + share[:, None] * (ends[passing, 1] - ends[passing, 0])
-    return float(from_polyline(places, curve).min()) if len(places) else 1e9
-
-
 def cut_of(path):
-    """The curve of the cut that is nearest to the middle of the drag, and the plane: its origin and normal."""
+    """The curve in which the plane through a drag and the eye cuts the quads nearest to the middle of the drag."""
     path = numpy.array(path)
     middle = path[len(path) // 2]
     normal = numpy.cross(path[-1] - path[0], middle - numpy.array(view.GetActiveCamera().GetPosition()))
@@ -245,8 +234,7 @@ def cut_of(path):
     nearest = lines.GetCell(int(numpy.argmin([
         min(math.dist(lines.GetPoint(lines.GetCell(i).GetPointId(k)), middle)
             for k in range(lines.GetCell(i).GetNumberOfPoints())) for i in range(lines.GetNumberOfCells())])))
-    curve = [lines.GetPoint(nearest.GetPointId(i)) for i in range(nearest.GetNumberOfPoints())]
-    return curve, middle, normal / numpy.linalg.norm(normal)
+    return [lines.GetPoint(nearest.GetPointId(i)) for i in range(nearest.GetNumberOfPoints())]
 
 
 def last_row(kind):

@@ -34,8 +34,6 @@ BAR = 0.98       # of the places
 MET_ANGLE = 5    # degrees in the mean, as the Constraint Table has it for strokes
 MET_OFF = 0.3    # edge lengths, as the table has it for feature curves
 SEEN = 0.8       # of a line, the share that is not hidden
-CROSSED = 0.05   # edge lengths between a cut and a feature that a loop crosses
-NOT_CROSSED = 0.15
 DOUBT = 2.5      # degrees in which two ways to measure the mean may differ
 WIDTH = count_actions.WIDTH
 FILE_MENU = 20, 10      # pixels of the screen
@@ -330,13 +328,12 @@ def connect(session, chance):
 def loop(session, chance):
     pixels, places = session.path(chance, bend=0)
     closes = session.value(f"cut_closes({places!r})")
-    crossed = session.value(f"cut_crosses({places!r})") / session.edge
     session.drag(pixels)
     drawn = session.drawn()
-    if not drawn or not closes or crossed < CROSSED:
-        is_wrong = bool(drawn) if not closes or crossed < CROSSED else crossed > NOT_CROSSED
-        text = f"nothing was drawn; the cut closes {closes}, features are {crossed:.2f} off"
-        return NOTHING if is_wrong else Outcome(0, None, True, text)
+    if bool(drawn) != closes:
+        return NOTHING
+    if not drawn:
+        return Outcome(0, None, True, "nothing was drawn, as the cut does not close")
     off = session.value(f"float(from_polyline({places!r}, constraints()[-1][1], True).max())") / session.edge
     met, reason = session.word("cycle") or (None, "no row")
     return Outcome(off, met, met is not None and (met == 1 or reason != ""), reason)

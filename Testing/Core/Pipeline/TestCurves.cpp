@@ -183,6 +183,27 @@ TEST(Curves, ACycleIsAClosedLoopOfEdges)
   EXPECT_FALSE(QuadChains(result.quads).closedNear(cycle.points, 0.4).empty());
 }
 
+// Four sharp edges are crossed, where quads go straight on.
+TEST(Curves, ACycleGoesOnAcrossSharpEdges)
+{
+  RemeshOptions options = curveOptions(600);
+  options.featureAngle = 40 * kPi / 180;
+  SurfaceInput input = toInput(unitCube(12));
+  constexpr double kHeight = 0.37;
+  input.curves.push_back({ CurveKind::Cycle, {} });
+  for (const auto& [x, y] : { std::pair(0.0, 0.0), { 0.5, 0.0 }, { 1.0, 0.0 }, { 1.0, 0.5 },
+         { 1.0, 1.0 }, { 0.5, 1.0 }, { 0.0, 1.0 }, { 0.0, 0.5 } })
+  {
+    input.curves[0].points.emplace_back(x, y, kHeight);
+  }
+  const RemeshResult result = remesh(input, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(result.certificate.valid());
+  ASSERT_EQ(result.curves.size(), 1U);
+  EXPECT_TRUE(result.curves[0].met) << result.curves[0].why;
+  EXPECT_FALSE(QuadChains(result.quads).closedNear(input.curves[0].points, 0.1).empty());
+}
+
 TEST(Curves, ACycleRoundOneIrregularVertexBringsOthersInside)
 {
   // On one side of a closed line 4 - valence sums up to 4, whatever the field would have there.
