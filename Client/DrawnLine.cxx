@@ -44,6 +44,14 @@ double distanceToSegment(const Place& place, const Place& begin, const Place& en
     { begin[0] + share * along[0], begin[1] + share * along[1], begin[2] + share * along[2] });
 }
 
+/// 0 of none.
+double medianOf(std::vector<double> numbers)
+{
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return numbers.empty() ? 0 : *middle;
+}
+
 } // namespace
 
 double lengthOf(const std::vector<Pixel>& path)
