@@ -160,11 +160,6 @@ std::vector<std::uint8_t> holdJumps(const Mesh& mesh, const FieldTopology& topol
     for (std::size_t i = 0; i < line.crossed.size(); ++i)
     {
       const Index h = line.crossed[i], twin = mesh.twin[h];
-      if (mesh.isConstrained(h))
-      {
-        missing = 0; // the field runs along features on both sides of them
-        continue;
-      }
       const int wanted = jumpAlong(mesh, topology, angle, line, i) + missing;
       if (isHeld[h] == 0)
       {

@@ -63,6 +63,13 @@ Index nearestFlagged(
   return best;
 }
 
+/// Between features these lead the field, and a coarse way would turn it away from them.
+bool crossesFeature(const Mesh& mesh, const FacePath& path)
+{
+  return std::any_of(
+    path.crossed.begin(), path.crossed.end(), [&mesh](Index h) { return mesh.isConstrained(h); });
+}
+
 struct CurveEnd
 {
   Index vertex = kInvalidIndex;
@@ -364,9 +371,12 @@ CurvesInField followedCurves(const Mesh& mesh, const CrossField& field,
                                              : pathAlong(mesh, curve, ends.from, ends.to);
     if (path)
     {
+      clearTheWay(mesh, curve, ends, edgeLength, result.regular);
+    }
+    if (path && !crossesFeature(mesh, *path))
+    {
       result.lines.push_back({ path->crossed, directionsAlong(mesh, *path, cycle) });
       guideAlong(mesh, *path, cycle, cycle ? kCycleWeight : kConnectionWeight, guides);
-      clearTheWay(mesh, curve, ends, edgeLength, result.regular);
     }
   }
   result.guides = std::move(guides);
