@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Evaluation/QuadQuality.h"
+#include "NearestPoint.h"
 #include "Symmetry/Symmetry.h"
 #include "TestMeshes.h"
 
@@ -176,14 +177,6 @@ inline Mesh withNoise(Mesh mesh, double size)
     p += Vector3(offset(random), offset(random), offset(random));
   }
   return mesh;
-}
-
-inline Index nearestPoint(const std::vector<Vector3>& points, const Vector3& p)
-{
-  const auto nearer = [&](const Vector3& a, const Vector3& b)
-  { return (a - p).norm() < (b - p).norm(); };
-  return static_cast<Index>(
-    std::min_element(points.begin(), points.end(), nearer) - points.begin());
 }
 
 inline bool hasNotice(const SymmetricResult& made, const std::string& text)

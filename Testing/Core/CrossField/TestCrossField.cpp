@@ -5,6 +5,7 @@
 #include "CrossField/PowerField.h"
 #include "CrossField/TurnRepair.h"
 #include "CrossField/Turns.h"
+#include "Mesh/Topology.h"
 #include "TestMeshes.h"
 
 #include <Eigen/Geometry>
@@ -30,16 +31,6 @@ CrossField fieldOf(const Mesh& mesh, double edgeLength = 0.2)
   CrossFieldOptions options;
   options.targetEdgeLength = edgeLength;
   return computeCrossField(mesh, options);
-}
-
-std::vector<std::uint8_t> boundaryVertices(const Mesh& mesh)
-{
-  std::vector<std::uint8_t> boundary(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    boundary[mesh.origin[h]] |= mesh.isBoundary(h) ? 1 : 0;
-  }
-  return boundary;
 }
 
 // Sum over interior (4 - turns) + boundary (2 - turns): 4 chi by Poincare and Hopf.

@@ -5,6 +5,7 @@
 #include "Quads/QuadChains.h"
 
 #include "MeshInput.h"
+#include "NearestPoint.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -100,14 +101,15 @@ TEST(Curves, AConnectionIsAStraightChainOfEdges)
     const CurveOutcome& outcome = result.curves.front();
     const QuadChains chains(result.quads);
     const std::vector<Index> chain =
-      chains.between(chains.nearestPoint(outcome.start), chains.nearestPoint(outcome.end));
+      chains.between(nearestPoint(result.quads.points, outcome.start),
+        nearestPoint(result.quads.points, outcome.end));
     EXPECT_EQ(outcome.met, !chain.empty()) << outcome.why;
     EXPECT_EQ(outcome.met, outcome.why.empty());
     met += outcome.met ? 1 : 0;
     for (const Vector3& end : { outcome.start, outcome.end })
     {
       // Smoothing leaves what was joined where it is.
-      const Vector3& point = result.quads.points[chains.nearestPoint(end)];
+      const Vector3& point = result.quads.points[nearestPoint(result.quads.points, end)];
       EXPECT_TRUE(!outcome.met || (point - end).norm() < 1e-6) << (point - end).norm();
     }
   }

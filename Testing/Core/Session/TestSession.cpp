@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// States of a session, and what is made for them.
+#include "NearestPoint.h"
 #include "SessionHelpers.h"
 #include "SphereWithoutRoom.h"
 
@@ -287,7 +288,10 @@ TEST(Session, ConnectionsAreChainsOfEdges)
     for (const IrregularVertex& b : before.irregular)
     {
       if (PlaceOrder()(a.place, b.place) &&
-        chains.between(chains.nearestPoint(a.place), chains.nearestPoint(b.place)).empty() &&
+        chains
+          .between(
+            nearestPoint(before.quads.points, a.place), nearestPoint(before.quads.points, b.place))
+          .empty() &&
         (!first || (a.place - b.place).norm() < (first->place - second->place).norm()))
       {
         first = &a;
@@ -310,7 +314,8 @@ TEST(Session, ConnectionsAreChainsOfEdges)
     {
       const double apart = (a.place - first->place).norm() + (b.place - second->place).norm();
       isJoined |= apart < 3 * session.result()->targetEdgeLength &&
-        !after.between(after.nearestPoint(a.place), after.nearestPoint(b.place)).empty();
+        !after.between(nearestPoint(quads.points, a.place), nearestPoint(quads.points, b.place))
+           .empty();
     }
   }
   EXPECT_TRUE(isJoined);
