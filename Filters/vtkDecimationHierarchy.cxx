@@ -167,6 +167,7 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   coarse->ShallowCopy(write(hierarchy.coarse));
   quadrille::addNumber(coarse, "TargetEdgeLength", frame.unit * sized.edgeLength);
   quadrille::addCount(coarse, "TargetQuads", sized.targetQuads);
+  quadrille::addCount(coarse, "SizeWish", static_cast<std::size_t>(levels.sizes));
   quadrille::addCurveRequests(coarse, curves);
   quadrille::addText(coarse, "ReusedStages", reused);
   quadrille::addFields(coarse, quadrille::stageFields(sized.stages.all()));

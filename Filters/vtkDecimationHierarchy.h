@@ -8,7 +8,8 @@
  *
  * 0. the coarse level, for vtkIntegerGridMap. Points: `FineVertex`, and `TargetValence` and `Sizing` where they are
  *    asked for; cells: `FineFace`, `FeatureEdges`, and `GuidingDirection` with `GuidingWeight` where there are guides;
- *    field data: `TargetEdgeLength`, `TargetQuads`, stage times, repair counts, `Notices`.
+ *    field data: `TargetEdgeLength`, `TargetQuads`, `SizeWish` (where sizes are asked for: 0 nowhere, 1 everywhere, 2
+ *    at places), stage times, repair counts, `Notices`.
  * 1. the intermediate level, with the same arrays.
  * 2. the log, for vtkIntegerGridMapUpmap: a table without columns, the bytes in the field array `DecimationLog`, bound
  *    to the surface by `SurfaceHash`. It has a port of its own so that it never travels with a picture.

@@ -36,13 +36,16 @@ double fieldNumber(vtkPolyData* data, const char* name)
 quadrille::GridMapOptions optionsFor(vtkPolyData* input, double edgeLength)
 {
   quadrille::GridMapOptions options;
-  options.sizes = quadrille::SizeWish::Everywhere; // nothing tells why the level has its sizes
   options.edgeLength = edgeLength;
   if (edgeLength == 0)
   {
     options.edgeLength = fieldNumber(input, "TargetEdgeLength");
     options.targetQuads = fieldNumber(input, "TargetQuads");
   }
+  // What another program has made has its sizes for their own sake.
+  options.sizes = input->GetFieldData()->HasArray("SizeWish")
+    ? static_cast<quadrille::SizeWish>(fieldNumber(input, "SizeWish"))
+    : quadrille::SizeWish::Everywhere;
   if (!(options.edgeLength > 0))
   {
     throw quadrille::InvalidInput(

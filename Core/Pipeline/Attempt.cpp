@@ -46,9 +46,7 @@ GridMapOptions mapOptions(const RunContext& run, const PlannedSurface& surface,
   options.guides = coarse.guides;
   options.targetValences = levelValences(*surface, coarse.mesh, coarse.fineVertex);
   options.sectorTurns = levelSectors(*surface, coarse.mesh, coarse.fineVertex);
-  options.sizes = surface->localSizes ? SizeWish::AtPlaces
-    : surface.sizesBefore.empty()     ? SizeWish::None
-                                      : SizeWish::Everywhere;
+  options.sizes = sizeWish(surface);
   options.curves = surface->curves;
   options.seams = surface->seams;
   options.progress = subProgress(run.options.progress, 0.45, 0.8, "Mapping: ");

@@ -55,6 +55,7 @@ FirstLevels makeFirstLevels(
   run.options.smallDetails = SmallDetails::Automatic; // smaller quads only where they are not many
   findShortLoops(run, first.stages, first.reused);
   first.smallParts = run.shortLoops.parts;
+  first.sizes = sizeWish(run.surface);
   const QuadSize size{ sized.edgeLength, frame.unit, sized.targetQuads,
     options.maximumNumberOfQuads };
   const Plan plan = firstPlan(run);

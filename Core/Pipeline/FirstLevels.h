@@ -23,6 +23,7 @@ struct FirstLevels
 {
   Hierarchy hierarchy;
   SmallParts smallParts; ///< lengths in the frame
+  SizeWish sizes = SizeWish::None;
   std::vector<std::string> notices;
   StageRecords stages;
   std::vector<std::string> reused; ///< names of stages whose result the store had

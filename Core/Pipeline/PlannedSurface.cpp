@@ -67,6 +67,13 @@ PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, Resul
   return { std::move(surface), key, key, sizes };
 }
 
+SizeWish sizeWish(const PlannedSurface& surface)
+{
+  return surface->localSizes      ? SizeWish::AtPlaces
+    : surface.sizesBefore.empty() ? SizeWish::None
+                                  : SizeWish::Everywhere;
+}
+
 PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan)
 {
   if (!plan.sizes && !plan.featuresGivenUp && !plan.counterparts)

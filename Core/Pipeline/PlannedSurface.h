@@ -4,6 +4,7 @@
 /// plans.
 #pragma once
 
+#include "CrossField/CrossField.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Plan.h"
 #include "Pipeline/ResultStore.h"
@@ -35,6 +36,9 @@ struct PlannedSurface
 
 /// The surface as it is. key: of it.
 PlannedSurface withoutPlan(std::shared_ptr<const PreparedSurface> surface, ResultKey key);
+
+/// Where sizes of quads are asked for, whatever the plan has beside.
+SizeWish sizeWish(const PlannedSurface& surface);
 
 /// With the sizes and irregular vertices of the plan, without the features that it gives up. surface: without a plan.
 PlannedSurface withPlan(const PlannedSurface& surface, const Plan& plan);

@@ -162,11 +162,16 @@ TEST(SizeCones, FieldTakesThem)
     withSizes(gridPlane(40, 20), [](const Vector3& p) { return p.x() > 20 ? 1.0 : 0.5; });
   CrossFieldOptions options;
   options.targetEdgeLength = 2;
-  const CrossField field = computeCrossField(mesh, options);
-  ASSERT_TRUE(field.status.ok()) << field.status.message;
-  const Index irregular = static_cast<Index>(
-    std::count_if(field.turns.begin(), field.turns.end(), [](int t) { return t == 3 || t == 5; }));
-  EXPECT_GE(irregular, 2U);
+  const auto irregularOf = [&](SizeWish sizes)
+  {
+    options.sizes = sizes;
+    const CrossField field = computeCrossField(mesh, options);
+    EXPECT_TRUE(field.status.ok()) << field.status.message;
+    return std::count_if(
+      field.turns.begin(), field.turns.end(), [](int t) { return t == 3 || t == 5; });
+  };
+  EXPECT_GE(irregularOf(SizeWish::Everywhere), 2);
+  EXPECT_EQ(irregularOf(SizeWish::None), 0);
   const CrossField plain = computeCrossField(gridPlane(40, 20), options);
   EXPECT_EQ(std::count(plain.turns.begin(), plain.turns.end(), 5), 0);
 }
