@@ -320,7 +320,7 @@ void adaptToSizes(const Change& change, const std::vector<int>& sectorTurns, Sol
   const CrossFieldOptions& options = change.options;
   const bool isAtPlaces = options.sizes == SizeWish::AtPlaces;
   const std::vector<int> targets = valencesForSizes(change.mesh, change.topology, solution.turns,
-    options.targetValences, { isAtPlaces, quadsOf(change.topology, options) });
+    options.targetValences, { options.sizes, quadsOf(change.topology, options) });
   if (targets.empty())
   {
     return;
@@ -415,7 +415,7 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
   if (best.status.ok())
   {
     const std::vector<int> sectors = turnPatches(change, best);
-    if (!mesh.sizing.empty() && options.sizes != SizeWish::None)
+    if (!mesh.sizing.empty())
     {
       adaptToSizes(change, sectors, best);
     }

@@ -33,10 +33,11 @@ struct FieldLine
     along; ///< its direction, of any length, in each face; one more than `crossed`
 };
 
-/// Where sizes are asked for. Those that are made smaller for the sake of short loops alone are not: between the
-/// features of a part the map follows them as far as its turns let it.
+/// Where sizes are asked for.
 enum class SizeWish
 {
+  /// Nowhere: quads are smaller round short loops alone. What moves for their sake between the sides of a patch has to
+  /// fit these, which nothing sees to; so irregular vertices move only where no feature or boundary is.
   None,
   Everywhere,
   /// At some places, whose quads are few: an irregular vertex more is worth what it does for some quads there, see
@@ -61,7 +62,7 @@ struct CrossFieldOptions
   /// Empty or #H: quarter turns that the sector from a constrained half-edge on must make, met exactly; 0 where free. A
   /// target valence of its vertex comes before it.
   std::vector<int> sectorTurns;
-  /// Whether irregular vertices move so that quads can follow the sizes of the mesh, if it has some.
+  /// Why the mesh has sizes, if it has some: for their sake irregular vertices move.
   SizeWish sizes = SizeWish::None;
 };
 

@@ -146,18 +146,36 @@ struct ConePlace
   int turns = 4;
 };
 
+/// Per region, whether features or boundaries bound it.
+std::vector<std::uint8_t> regionsWithSides(const Mesh& mesh, const std::vector<Index>& region)
+{
+  std::vector<std::uint8_t> hasSides(region.size(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isConstrained(h))
+    {
+      hasSides[region[Mesh::face(h)]] = 1;
+    }
+  }
+  return hasSides;
+}
+
 /// The irregular vertices, and others evenly in the order of the mesh, which runs along a space-filling curve. Where
-/// sizes are asked for at places they are those of other sizes than 1: the rest of the quads stays as it is.
+/// sizes are asked for at places they are those of other sizes than 1: the rest of the quads stays as it is. Where they
+/// are not asked for at all, those of regions without sides.
 std::vector<ConePlace> placesOf(const Mesh& mesh, const FieldTopology& topology,
-  const std::vector<int>& turns, const std::vector<int>& asked, bool atPlaces)
+  const std::vector<int>& turns, const std::vector<int>& asked, SizeWish sizes)
 {
   const std::vector<Index> region = regionsOf(mesh);
+  const std::vector<std::uint8_t> hasSides = regionsWithSides(mesh, region);
   std::vector<ConePlace> all;
   for (Index i = 0; i < topology.fans.size(); ++i)
   {
     const Fan& fan = topology.fans[i];
-    const bool free =
-      (asked.empty() || asked[fan.vertex] == 0) && !(atPlaces && mesh.sizing[fan.vertex] == 1);
+    const bool isElsewhere = sizes == SizeWish::AtPlaces
+      ? mesh.sizing[fan.vertex] == 1
+      : sizes == SizeWish::None && hasSides[region[Mesh::face(fan.first)]] != 0;
+    const bool free = (asked.empty() || asked[fan.vertex] == 0) && !isElsewhere;
     // With fewer triangles there is hardly room for five quarter turns.
     if (!fan.sector && free && fan.corners >= 4)
     {
@@ -323,7 +341,7 @@ double worthOfVertex(const SizeConeOptions& options)
 {
   constexpr double kFactor = 1.25;
   const double each = std::log(kFactor) * std::log(kFactor);
-  return options.atPlaces
+  return options.sizes == SizeWish::AtPlaces
     ? std::min(kWorthOfVertex, kQuadsOfVertex * each / std::max(options.quads, 1.0))
     : kWorthOfVertex;
 }
@@ -340,7 +358,7 @@ std::vector<int> valencesForSizes(const Mesh& mesh, const FieldTopology& topolog
   const std::vector<int>& turns, const std::vector<int>& asked, const SizeConeOptions& options)
 {
   const ConformalFactor factor(mesh, topology);
-  TurnPlacement placement(mesh, placesOf(mesh, topology, turns, asked, options.atPlaces), factor,
+  TurnPlacement placement(mesh, placesOf(mesh, topology, turns, asked, options.sizes), factor,
     factor.ofTurns(topology, turns), worthOfVertex(options));
   if (!placement.improve())
   {

@@ -9,6 +9,7 @@
 /// cones [Soliman et al. 2018], here in whole quarter turns and greedily.
 #pragma once
 
+#include "CrossField/CrossField.h"
 #include "CrossField/FieldTopology.h"
 
 #include <vector>
@@ -18,9 +19,9 @@ namespace quadrille
 
 struct SizeConeOptions
 {
-  /// Sizes are asked for at places and are 1 elsewhere. An irregular vertex is worth it for a few quads there, not for
-  /// a share of the surface, and turns move between vertices of other sizes alone.
-  bool atPlaces = false;
+  /// At places: sizes are 1 elsewhere. An irregular vertex is worth it for a few quads there, not for a share of the
+  /// surface, and turns move between vertices of other sizes alone.
+  SizeWish sizes = SizeWish::Everywhere;
   double quads = 1; ///< of the whole surface, where sizes are asked for at places
 };
 

@@ -100,7 +100,8 @@ TEST(SizeCones, ASmallPlaceIsWorthIrregularVerticesByItsQuads)
   const auto irregularOf = [](const std::vector<int>& targets)
   { return std::count_if(targets.begin(), targets.end(), [](int t) { return t != 0 && t != 4; }); };
   const auto byShare = irregularOf(valencesForSizes(mesh, topology, before, {}));
-  const auto byQuads = irregularOf(valencesForSizes(mesh, topology, before, {}, { true, 3600 }));
+  const auto byQuads =
+    irregularOf(valencesForSizes(mesh, topology, before, {}, { SizeWish::AtPlaces, 3600 }));
   EXPECT_GT(byQuads, byShare);
 }
 
@@ -126,7 +127,8 @@ TEST(SizeCones, TurnsStayWhereNoOtherSizeIsAskedFor)
   const std::vector<int> before = turnsWith(topology, pair);
   const std::vector<int> anywhere = valencesForSizes(mesh, topology, before, {});
   EXPECT_EQ(anywhere[pair[0].first], 4);
-  const std::vector<int> there = valencesForSizes(mesh, topology, before, {}, { true, 3600 });
+  const std::vector<int> there =
+    valencesForSizes(mesh, topology, before, {}, { SizeWish::AtPlaces, 3600 });
   std::size_t moved = 0;
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
@@ -154,6 +156,23 @@ TEST(SizeCones, TargetsOfTheUserStay)
   {
     EXPECT_TRUE(asked[v] == 0 || targets[v] == asked[v]);
   }
+}
+
+/// Between the sides of a patch a pair has to fit these, on a surface without any it may be anywhere.
+TEST(SizeCones, SizesThatNobodyAskedForMoveTurnsWhereNoSideIs)
+{
+  const auto sizes = [](const Vector3& p) { return p.x() > 0 ? 1.0 : 0.3; };
+  const Mesh closed = withSizes(torus(60, 24, 1, 0.4), sizes);
+  const FieldTopology topology = buildFieldTopology(closed);
+  const std::vector<int> before = turnsWith(topology, {});
+  EXPECT_FALSE(valencesForSizes(closed, topology, before, {}, { SizeWish::None }).empty());
+
+  const Mesh open =
+    withSizes(gridPlane(40, 20), [](const Vector3& p) { return p.x() > 20 ? 1.0 : 0.3; });
+  const FieldTopology ofOpen = buildFieldTopology(open);
+  const std::vector<int> regular = turnsWith(ofOpen, {});
+  EXPECT_FALSE(valencesForSizes(open, ofOpen, regular, {}, { SizeWish::Everywhere }).empty());
+  EXPECT_TRUE(valencesForSizes(open, ofOpen, regular, {}, { SizeWish::None }).empty());
 }
 
 TEST(SizeCones, FieldTakesThem)
