@@ -357,9 +357,14 @@ double sizeError(const Mesh& mesh, const FieldTopology& topology, const std::vec
 std::vector<int> valencesForSizes(const Mesh& mesh, const FieldTopology& topology,
   const std::vector<int>& turns, const std::vector<int>& asked, const SizeConeOptions& options)
 {
+  std::vector<ConePlace> places = placesOf(mesh, topology, turns, asked, options.sizes);
+  if (places.empty())
+  {
+    return {};
+  }
   const ConformalFactor factor(mesh, topology);
-  TurnPlacement placement(mesh, placesOf(mesh, topology, turns, asked, options.sizes), factor,
-    factor.ofTurns(topology, turns), worthOfVertex(options));
+  TurnPlacement placement(
+    mesh, std::move(places), factor, factor.ofTurns(topology, turns), worthOfVertex(options));
   if (!placement.improve())
   {
     return {};
