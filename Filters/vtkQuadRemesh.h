@@ -269,8 +269,7 @@ public:
    * MaximumNumberOfQuads; SMALL_DETAILS_SIMPLIFY takes them out of the surface: handles are cut along their shortest
    * loop and closed on both sides, boundary loops filled; SMALL_DETAILS_KEEP leaves surface and sizes as they are,
    * and the run fails where that is impossible. SMALL_DETAILS_AUTOMATIC simplifies those below SmallestDetail and
-   * resolves the others, and where that would take more than 1.6 times the quads it simplifies the next longer ones,
-   * too; components with less area than a quad are left out where the smallest blocks for all small ones (see
+   * crowds of handles, and resolves the others where that takes at most 1.6 times the quads; components with less area than a quad are left out where the smallest blocks for all small ones (see
    * SmallComponents) would be more quads than are asked for. With METHOD_MIXED_INTEGER and QUADCOVER,
    * INTEGERS_COARSEST and a Symmetry nothing is simplified by it, nor by SMALL_DETAILS_SIMPLIFY with a Symmetry.
    * Output 7 has them all. Default: SMALL_DETAILS_AUTOMATIC.

@@ -31,7 +31,6 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
   { "pipeline", "larger pull", "the coarsest integers with a larger pull to the wanted sizes",
     "6 maps" },
   { "pipeline", "carried map held", "final quality with vertices near inverted quads held", "3" },
-  { "pipeline", "raised limit", "the limit of the size of details is raised", "3 s" },
   { "map", "fewer irregular at seams", "the map again with fewer irregular vertices", "1" },
   { "map", "without the earlier map", "the map again from the beginning", "1" },
   { "map", "without the curves", "the map without the asked curves, as a measure and to begin with",

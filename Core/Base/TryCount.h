@@ -26,7 +26,6 @@ enum class Try : std::uint8_t
   WithoutGuides,
   LargerPull,
   CarriedMapHeld,
-  RaisedLimit,
   SeamsFewer,
   WithoutEarlier,
   WithoutCurves,

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/DetailSteps.h"
 
-#include "Base/TryCount.h"
 #include "Details/SmallComponents.h"
 #include "Pipeline/FirstPlan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 
@@ -21,9 +19,6 @@ namespace
 constexpr std::size_t kSeveralHandles = 8;
 constexpr double kMostGrowthOfSeveral = 1.15;
 constexpr double kMostGrowthOfMany = 1.05;
-/// By how much the limit below which Automatic simplifies grows where smaller quads at the rest take too many.
-constexpr double kLimitStep = 0.5;
-
 /// Handles that are cut where nothing else has led to quads, in edge lengths. Loops of the intermediate level are up to
 /// a tenth too short, and of four quads round a handle a map may leave two: then they touch themselves.
 constexpr double kLoopOfRest = 4;
@@ -34,16 +29,6 @@ std::vector<HandleLoop>::const_iterator endOfHandles(const ShortLoops& found)
   return found.loops.begin() + static_cast<std::ptrdiff_t>(found.parts.unresolvedHandles);
 }
 
-/// Of these those that are at least as long.
-std::vector<HandleLoop> loopsAbove(double length, std::vector<HandleLoop>::const_iterator begin,
-  std::vector<HandleLoop>::const_iterator end)
-{
-  std::vector<HandleLoop> loops;
-  std::copy_if(begin, end, std::back_inserter(loops),
-    [&](const HandleLoop& loop) { return loop.length >= length; });
-  return loops;
-}
-
 } // namespace
 
 DetailLimits detailLimits(double edgeLength, double smallest, bool takesAll, bool isRest)
@@ -52,31 +37,14 @@ DetailLimits detailLimits(double edgeLength, double smallest, bool takesAll, boo
   return { limit, isRest ? std::max(limit, kLoopOfRest * edgeLength) : limit };
 }
 
-bool raise(DetailLimits& limits, const RunContext& run)
+bool isCrowdToCut(const DetailLimits& limits, const RunContext& run)
 {
   const ShortLoops& found = run.shortLoops;
-  const double most = kQuadsOfLoop * run.edgeLength;
-  std::size_t times = 0;
-  const std::vector<HandleLoop> handles =
-    loopsAbove(limits.handles, found.loops.begin(), endOfHandles(found));
+  std::vector<HandleLoop> handles;
+  std::copy_if(found.loops.cbegin(), endOfHandles(found), std::back_inserter(handles),
+    [&](const HandleLoop& loop) { return loop.length >= limits.handles; });
   const double growth = handles.size() >= kManyHandles ? kMostGrowthOfMany : kMostGrowthOfSeveral;
-  if (handles.size() >= kSeveralHandles && !resolvesLoops(run, handles, growth))
-  {
-    limits.handles = most;
-    ++times;
-  }
-  double& limit = limits.boundaryLoops;
-  while (
-    limit < most && !resolvesLoops(run, loopsAbove(limit, found.loops.begin(), found.loops.end())))
-  {
-    // Multiples of the step, so that a larger limit to begin with never ends lower.
-    const double step = kLimitStep * run.edgeLength;
-    limit = std::min(most, step * (std::floor(limit / step) + 1));
-    ++times;
-  }
-  limits.handles = std::max(limits.handles, limit);
-  countTry(Try::RaisedLimit, times);
-  return times > 0;
+  return handles.size() >= kSeveralHandles && !resolvesLoops(run, handles, growth);
 }
 
 std::vector<HandleLoop> shortBoundaryLoops(

@@ -26,9 +26,9 @@ struct DetailLimits
 /// quads could do. isRest: nothing else has led to quads.
 DetailLimits detailLimits(double edgeLength, double smallest, bool takesAll, bool isRest);
 
-/// The limits grow until smaller quads do for the loops that are at least as long. A crowd of handles is resolved as a
-/// whole or cut. False where they stay.
-bool raise(DetailLimits& limits, const RunContext& run);
+/// Whether the handles at least as long as the limit are so many, and smaller quads round them would be so many more,
+/// that all short ones are cut. The short loops of the run were found.
+bool isCrowdToCut(const DetailLimits& limits, const RunContext& run);
 
 /// Below the limit. Those of components with less area than a closed block of quads are left to them.
 std::vector<HandleLoop> shortBoundaryLoops(

@@ -3,7 +3,6 @@
 #include "Pipeline/SettledSurface.h"
 
 #include "Base/Clock.h"
-#include "Base/TryCount.h"
 #include "Details/CloseHandles.h"
 #include "Details/FillHoles.h"
 #include "Details/Handles.h"
@@ -220,19 +219,20 @@ std::size_t thin(Settling& work, double limit, bool isBegun)
     });
 }
 
-/// Until no loop below the limits is left that can be closed.
-void simplifyAll(Settling& work, DetailLimits& limits)
+/// Until no handle below the limit is left that can be closed.
+void cutAll(Settling& work, DetailLimits& limits)
 {
   for (int cutting = 0; cutting < kMostCuttings; ++cutting)
   {
     measure(work);
-    const bool isRaised = !work.takesAll && raise(limits, *work.made.run);
-    const std::size_t closed = cut(work, limits.handles);
-    if (closed + fill(work, limits.boundaryLoops) == 0)
+    if (!work.takesAll && isCrowdToCut(limits, *work.made.run))
+    {
+      limits.handles = kQuadsOfLoop * work.sized.edgeLength;
+    }
+    if (cut(work, limits.handles) == 0)
     {
       break;
     }
-    countTryLed(Try::RaisedLimit, isRaised ? 1 : 0);
   }
   if (!work.made.run)
   {
@@ -319,7 +319,7 @@ Status simplify(Settling& work)
     {
       return status;
     }
-    simplifyAll(work, limits);
+    cutAll(work, limits);
     if (work.isOwn)
     {
       takeRequests(*sized.surface, asked, work);
