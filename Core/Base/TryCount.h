@@ -33,7 +33,7 @@ enum class Try : std::uint8_t
   WithoutUnmet,
   CurvesByHalves,
   IrregularAtEnds,
-  OtherScale,
+  OtherNumber,
   OtherIntegers,
   NearSeamless,
   MoreWeight,

@@ -32,7 +32,13 @@ namespace quadrille
 namespace
 {
 
-constexpr int kMaximumScalings = 4;
+/// Numbers of quads that are wanted one after the other.
+constexpr int kMostNumbers = 6;
+/// No fewer than this part of the quads asked for are wanted: quads twice as long. Where features need more quads, that
+/// does not change by larger ones beside them.
+constexpr double kLeastWanted = 0.25;
+/// By which part in proportion the number of quads at least follows what is wanted.
+constexpr double kLeastSlope = 0.5;
 /// How many integers are tried where embedding fails; three were enough on most parts.
 constexpr int kMostEmbeddings = 6;
 /// The number of quads is accepted when it is this close to the target (relative).
@@ -68,17 +74,19 @@ std::vector<Index> join(std::vector<Index> a, const std::vector<Index>& b)
 struct Component
 {
   MeshPart part;
-  CarriedMap previous;                          ///< empty where there is none
-  double share = 1;                             ///< of the area of the surface over its sizes
-  double block = 0;                             ///< quads that it has at least, see quadsOfBlock
-  bool hasIntegers = false;                     ///< of an earlier scale
-  bool isTriedOnce = false;                     ///< as others had failed before
-  Eigen::VectorXd solution;                     ///< of its seamless map, for the next scale
-  std::vector<FixedVec2> seamlessUv, integerUv; ///< of the scale that is tried
-  std::unique_ptr<RoundedMap> rounded;          ///< of the methods that round
-  std::vector<FixedVec2> startUv;               ///< the seamless map that uv was quantized from
+  CarriedMap previous;      ///< empty where there is none
+  double share = 1;         ///< of the area of the surface over its sizes
+  double block = 0;         ///< quads that it has at least, see quadsOfBlock
+  bool isBlock = false;     ///< gets these, as its share of what is asked for is less
+  bool isTriedOnce = false; ///< as others had failed before
+  std::vector<FixedVec2> seamlessUv;
+  double seamlessQuads = 0; ///< that this is scaled to
+  std::unique_ptr<Quantizer> quantizer;
+  std::unique_ptr<RoundedMap> rounded; ///< of the methods that round
+  std::vector<FixedVec2> roundedUv;    ///< for the number of quads that is tried
+  double triedPull = 1, pull = 1;      ///< of the integers to the seamless map
   std::vector<FixedVec2> uv;
-  double triedRefinement = 1, refinement = 1;
+  double refinement = 1;
   bool seamlessReused = false, integersReused = false;
   Status status;
   std::vector<Index> failedAt; ///< vertices of the part
@@ -96,30 +104,26 @@ struct Component
   }
 };
 
-/// A component whose share is less than a block of quads gets that block. With no number wanted all follow the edge
-/// length.
-bool isBlock(const Component& component, double wanted)
-{
-  return wanted > 0 && wanted * component.share < component.block;
-}
-
 double quadsOf(const Component& component, double wanted)
 {
-  return isBlock(component, wanted) ? component.block : wanted * component.share;
+  return component.isBlock ? component.block : wanted * component.share;
 }
 
-/// The number of quads of which the others get their shares, so that with the blocks there are as many as asked for.
-/// Where blocks would take more than half of the quads, the others keep half of what they would have alone.
-double besideBlocks(const std::vector<Component>& components, double target)
+/// A component whose share is less than a block of quads gets that block; with no number wanted all follow the edge
+/// length. Returns the number of quads of which the others get their shares, so that with the blocks there are as many
+/// as asked for. Where blocks would take more than half of the quads, the others keep half of what they would have
+/// alone.
+double setBlocks(std::vector<Component>& components, double target)
 {
   double wanted = target;
   for (bool changed = true; changed;)
   {
     double blocks = 0, shares = 0;
-    for (const Component& component : components)
+    for (Component& component : components)
     {
-      blocks += isBlock(component, wanted) ? component.block : 0;
-      shares += isBlock(component, wanted) ? 0 : component.share;
+      component.isBlock = wanted > 0 && wanted * component.share < component.block;
+      blocks += component.isBlock ? component.block : 0;
+      shares += component.isBlock ? 0 : component.share;
     }
     const double left = blocks > 0 && shares > 0
       ? std::max(kLeastBesideBlocks * target, (target - blocks) / shares)
@@ -130,20 +134,28 @@ double besideBlocks(const std::vector<Component>& components, double target)
   return wanted;
 }
 
+/// Where there is nothing, what it has at least.
+double quadsMade(const Component& component)
+{
+  if (!component.status.ok() || (!component.quantizer && component.roundedUv.empty()))
+  {
+    return component.block;
+  }
+  return component.quantizer ? component.quantizer->area()
+                             : mapArea(component.part.mesh, component.roundedUv);
+}
+
 /// Quads of the components that are no blocks over what they should have. Those without integers are as if they had
 /// their share.
-double ratioToTarget(const std::vector<Component>& components, double wanted, double targetQuads)
+double ratioToTarget(const std::vector<Component>& components, double targetQuads)
 {
   double quads = 0, shares = 0, blocks = 0, shareOfBlocks = 0;
   for (const Component& component : components)
   {
-    const bool block = isBlock(component, wanted);
-    const double made = component.status.ok() && !component.integerUv.empty()
-      ? mapArea(component.part.mesh, component.integerUv)
-      : component.block;
-    blocks += block ? made : 0;
-    shareOfBlocks += block ? component.share : 0;
-    if (!block && component.status.ok())
+    const double made = quadsMade(component);
+    blocks += component.isBlock ? made : 0;
+    shareOfBlocks += component.isBlock ? component.share : 0;
+    if (!component.isBlock && component.status.ok())
     {
       quads += made;
       shares += component.share;
@@ -205,7 +217,7 @@ public:
     }
     else
     {
-      chooseScale();
+      chooseNumber();
     }
     if (options_.method == MapMethod::ScaleAware)
     {
@@ -264,41 +276,59 @@ private:
       components_.begin(), components_.end(), [](const Component& c) { return !c.status.ok(); }));
   }
 
-  /// Integers at the scale whose number of quads comes nearest to the target. Scales change together, so
-  /// that quads stay alike on all components.
-  void chooseScale()
+  /// The integers whose number of quads comes nearest to the target. The shares of components change together, so that
+  /// quads stay alike on all of them.
+  void chooseNumber()
   {
-    double wanted = besideBlocks(components_, options_.targetQuads);
+    double wanted = setBlocks(components_, options_.targetQuads);
     double bestDeviation = kInfinity;
     int kept = 0;
-    for (int scaling = 0; scaling < kMaximumScalings; ++scaling)
+    // Logarithms of what was wanted, and of its ratio. The number follows by less than in proportion, as features have
+    // their edges whatever is wanted.
+    double lastWanted = 0, lastRatio = 0;
+    for (int tried = 0; tried < kMostNumbers; ++tried)
     {
-      countTry(Try::OtherScale, scaling > 0 ? 1 : 0);
+      countTry(Try::OtherNumber, tried > 0 ? 1 : 0);
       if (!makeIntegers(wanted))
-      {
-        break; // an earlier scale may have integers
-      }
-      const double ratio =
-        options_.targetQuads > 0 ? ratioToTarget(components_, wanted, options_.targetQuads) : 1;
-      const double deviation = std::abs(std::log(ratio));
-      if (deviation < bestDeviation)
-      {
-        bestDeviation = deviation;
-        keepTried();
-        kept = scaling;
-      }
-      // With a component missing there will be no quads to count.
-      // Integers that are to be small do not follow the scale.
-      if (deviation <= kCountTolerance || failures() > 0 || options_.pull < 1)
       {
         break;
       }
-      wanted /= ratio;
+      const double ratio =
+        std::log(options_.targetQuads > 0 ? ratioToTarget(components_, options_.targetQuads) : 1);
+      if (std::abs(ratio) < bestDeviation)
+      {
+        bestDeviation = std::abs(ratio);
+        keepTried();
+        kept = tried;
+      }
+      // With a component missing there will be no quads to count.
+      // Integers that are to be small do not follow the number.
+      if (bestDeviation <= kCountTolerance || failures() > 0 || options_.pull < 1)
+      {
+        break;
+      }
+      const double slope = tried > 0
+        ? std::clamp((ratio - lastRatio) / (std::log(wanted) - lastWanted), kLeastSlope, 1.0)
+        : 1;
+      lastWanted = std::log(wanted);
+      lastRatio = ratio;
+      // To well within the tolerance, as every strip changes the shape of quads.
+      const double tooMany = ratio - std::copysign(0.5 * kCountTolerance, ratio);
+      wanted =
+        std::max(std::exp(lastWanted - tooMany / slope), kLeastWanted * options_.targetQuads);
+      if (std::log(wanted) == lastWanted)
+      {
+        break;
+      }
     }
-    countTryLed(Try::OtherScale, kept > 0 ? 1 : 0);
+    countTryLed(Try::OtherNumber, kept > 0 ? 1 : 0);
+    for (Component& component : components_)
+    {
+      component.quantizer.reset();
+    }
   }
 
-  /// Components fail at the first scale only; at a later one the first failure ends the try.
+  /// A component without integers fails.
   bool makeIntegers(double wanted)
   {
     if (options_.method != MapMethod::ScaleAware)
@@ -309,19 +339,17 @@ private:
     for (std::size_t i = 0; i < components_.size(); ++i)
     {
       Component& component = components_[i];
-      if (component.status.ok() && !mapSeamlessly(component, wanted, progressOf(i, 0.1, 0.4)) &&
-        component.hasIntegers)
+      if (component.status.ok() && component.seamlessUv.empty())
       {
-        return false;
+        mapSeamlessly(component, quadsOf(component, wanted), progressOf(i, 0.1, 0.4));
       }
     }
     for (std::size_t i = 0; i < components_.size() && failures() < kHopeless; ++i)
     {
       Component& component = components_[i];
-      if (component.status.ok() && !makeIntegers(component, progressOf(i, 0.4, 0.7)) &&
-        component.hasIntegers)
+      if (component.status.ok())
       {
-        return false;
+        makeIntegers(component, quadsOf(component, wanted), progressOf(i, 0.4, 0.7));
       }
     }
     return failures() < kHopeless;
@@ -330,11 +358,11 @@ private:
   /// No integers: the map as it is.
   void keepSeamless()
   {
+    const double wanted = setBlocks(components_, options_.targetQuads);
     for (std::size_t i = 0; i < components_.size(); ++i)
     {
       Component& component = components_[i];
-      if (mapSeamlessly(
-            component, besideBlocks(components_, options_.targetQuads), progressOf(i, 0.1, 1.0)))
+      if (mapSeamlessly(component, quadsOf(component, wanted), progressOf(i, 0.1, 1.0)))
       {
         component.uv = std::move(component.seamlessUv);
       }
@@ -366,7 +394,7 @@ private:
         continue;
       }
       const TimedScope timed(result_.secondsQuantize, result_.processorQuantize);
-      component.integerUv = component.rounded->make(quadsOf(component, wanted),
+      component.roundedUv = component.rounded->make(quadsOf(component, wanted),
         options_.method == MapMethod::QuadCover ? RoundingOrder::AllAtOnce
                                                 : RoundingOrder::OneAtATime);
     }
@@ -376,12 +404,24 @@ private:
   {
     for (Component& component : components_)
     {
-      if (component.status.ok())
+      if (!component.status.ok())
       {
-        component.uv = std::move(component.integerUv);
-        component.startUv = std::move(component.seamlessUv);
-        component.refinement = component.triedRefinement;
+        continue;
       }
+      if (!component.quantizer)
+      {
+        component.uv = std::move(component.roundedUv);
+        continue;
+      }
+      QuantizeResult made = component.quantizer->result();
+      if (!made.status.ok())
+      {
+        failWithoutIntegers(component, std::move(made));
+        continue;
+      }
+      component.uv = std::move(made.uv);
+      component.refinement = made.refinement;
+      component.pull = component.triedPull;
     }
   }
 
@@ -422,15 +462,14 @@ private:
     return failed;
   }
 
-  /// The seamless map that has its share of `wanted`.
-  bool mapSeamlessly(Component& component, double wanted, const ProgressCallback& progress)
+  /// The seamless map, scaled to so many quads.
+  bool mapSeamlessly(Component& component, double quads, const ProgressCallback& progress)
   {
     const TimedScope timed(result_.secondsSeamless, result_.processorSeamless);
     const MeshPart& part = component.part;
     SeamlessOptions seamlessOptions;
     seamlessOptions.edgeLength = options_.edgeLength;
-    seamlessOptions.targetQuads = quadsOf(component, wanted);
-    seamlessOptions.solution = component.hasIntegers ? &component.solution : nullptr;
+    seamlessOptions.targetQuads = quads;
     seamlessOptions.previous = component.earlier();
     seamlessOptions.anisotropyLimit = options_.anisotropyLimit;
     seamlessOptions.maximumSteps = try_.maximumSteps;
@@ -438,66 +477,56 @@ private:
     SeamlessResult seamless = madeOrTold(
       part, {}, [&] { return computeSeamlessMap(part.mesh, part.field, seamlessOptions); });
     result_.seamlessSteps += seamless.newtonSteps;
-    component.seamlessReused = component.seamlessReused || seamless.startedFromPrevious;
+    component.seamlessReused = seamless.startedFromPrevious;
     if (!seamless.status.ok())
     {
-      if (!component.hasIntegers)
-      {
-        component.fail(seamless.status, std::move(seamless.uv),
-          join(cornerVertices(part.mesh, seamless.inverted), seamless.failedAt),
-          std::move(seamless.failedFaces));
-      }
+      component.fail(seamless.status, std::move(seamless.uv),
+        join(cornerVertices(part.mesh, seamless.inverted), seamless.failedAt),
+        std::move(seamless.failedFaces));
       return false;
     }
-    component.solution = std::move(seamless.solution);
     component.seamlessUv = std::move(seamless.uv);
+    component.seamlessQuads = quads;
     return true;
   }
 
-  bool makeIntegers(Component& component, const ProgressCallback& progress)
+  /// Curves that bend count where sizes do.
+  double edgeLengthOfCurves() const { return options_.pull < 1 ? 0 : options_.edgeLength; }
+
+  static void failWithoutIntegers(Component& component, QuantizeResult quantized)
   {
-    QuantizeResult quantized = madeOrTold(
-      component.part, {}, [&] { return quantize(component, component.seamlessUv, {}, progress); });
-    if (!quantized.status.ok())
-    {
-      if (!component.hasIntegers)
-      {
-        component.fail(
-          quantized.status, std::move(quantized.uv), {}, { std::move(quantized.failedFaces), {} });
-      }
-      return false;
-    }
-    component.integersReused =
-      component.hasIntegers ? component.integersReused : quantized.startedFromPrevious;
-    component.hasIntegers = true;
-    component.integerUv = std::move(quantized.uv);
-    component.triedRefinement = quantized.refinement;
-    return true;
+    component.seamlessUv.clear();
+    component.fail(
+      quantized.status, std::move(quantized.uv), {}, { std::move(quantized.failedFaces), {} });
   }
 
-  /// Valid integers are never thrown away, since others can be made of them strip by strip: those of the scale before,
-  /// of the embedding that failed, at first those of the last run.
-  static const std::vector<FixedVec2>* knownIntegers(const Component& component)
-  {
-    if (component.hasIntegers)
-    {
-      return &component.uv;
-    }
-    return component.previous.isMap ? &component.previous.uv : nullptr;
-  }
-
-  QuantizeResult quantize(const Component& component, const std::vector<FixedVec2>& seamlessUv,
-    const std::vector<Index>& watched, const ProgressCallback& progress)
+  void makeIntegers(Component& component, double quads, const ProgressCallback& progress)
   {
     const TimedScope timed(result_.secondsQuantize, result_.processorQuantize);
-    QuantizeOptions quantizeOptions;
-    quantizeOptions.watched = watched;
-    quantizeOptions.pull = options_.pull;
-    quantizeOptions.edgeLength = options_.edgeLength;
-    quantizeOptions.previousUv = knownIntegers(component);
-    quantizeOptions.anew = !component.hasIntegers;
-    quantizeOptions.progress = progress;
-    return quantizeMap(component.part.mesh, component.part.field, seamlessUv, quantizeOptions);
+    const MeshPart& part = component.part;
+    if (!component.quantizer)
+    {
+      QuantizeOptions quantizeOptions;
+      quantizeOptions.edgeLength = edgeLengthOfCurves();
+      quantizeOptions.previousUv = component.previous.isMap ? &component.previous.uv : nullptr;
+      quantizeOptions.progress = progress;
+      component.quantizer = madeOrTold(part, {},
+        [&]
+        {
+          return std::make_unique<Quantizer>(
+            part.mesh, part.field, component.seamlessUv, quantizeOptions);
+        });
+      if (!component.quantizer->status().ok())
+      {
+        failWithoutIntegers(component, component.quantizer->result());
+        return;
+      }
+      component.integersReused = component.quantizer->startedFromPrevious();
+    }
+    // With no number wanted, all follow the edge length.
+    component.triedPull =
+      quads > 0 ? options_.pull * std::sqrt(quads / component.seamlessQuads) : options_.pull;
+    component.quantizer->improve(component.triedPull, progress);
   }
 
   void embed()
@@ -517,8 +546,17 @@ private:
   {
     countTry(Try::OtherIntegers);
     std::vector<Index> all = join(watched, more);
-    QuantizeResult quantized = madeOrTold(component.part, failed,
-      [&] { return quantize(component, component.startUv, all, progress); });
+    const TimedScope timed(result_.secondsQuantize, result_.processorQuantize);
+    QuantizeOptions quantizeOptions;
+    quantizeOptions.pull = component.pull;
+    quantizeOptions.edgeLength = edgeLengthOfCurves();
+    quantizeOptions.watched = all;
+    quantizeOptions.previousUv = &component.uv;
+    quantizeOptions.anew = false;
+    quantizeOptions.progress = progress;
+    const MeshPart& part = component.part;
+    QuantizeResult quantized = madeOrTold(part, failed,
+      [&] { return quantizeMap(part.mesh, part.field, component.seamlessUv, quantizeOptions); });
     if (!quantized.status.ok() || quantized.uv == component.uv)
     {
       return false;
@@ -590,16 +628,16 @@ private:
     {
       const Component& component = components_[i];
       // What a block grows by is a few quads.
-      result_.refinement = std::max(
-        result_.refinement, isBlock(component, options_.targetQuads) ? 1.0 : component.refinement);
+      result_.refinement =
+        std::max(result_.refinement, component.isBlock ? 1.0 : component.refinement);
       const auto halfEdge = [&](Index h) { return 3 * component.part.face[Mesh::face(h)] + h % 3; };
       for (Index h = 0; h < component.uv.size(); ++h)
       {
         result_.uv[halfEdge(h)] = component.uv[h];
       }
-      for (Index h = 0; h < component.startUv.size(); ++h)
+      for (Index h = 0; h < component.seamlessUv.size(); ++h)
       {
-        result_.seamlessUv[halfEdge(h)] = component.startUv[h];
+        result_.seamlessUv[halfEdge(h)] = component.seamlessUv[h];
       }
       result_.reuse.seamless += component.seamlessReused ? 1 : 0;
       result_.reuse.integers += component.integersReused ? 1 : 0;

@@ -69,19 +69,6 @@ std::vector<FixedVec2> snapScaled(
   return space.snap(targetQuads > 0 && area > 0 ? y * std::sqrt(targetQuads / area) : y);
 }
 
-/// Scales the solution that the caller has, if that leaves nothing to mend.
-bool scaleKnown(const Mesh& mesh, const CrossField& field, const SeamlessSpace& space,
-  const SeamlessOptions& options, SeamlessResult& result)
-{
-  if (options.solution == nullptr || options.solution->size() != space.problem().basis.cols())
-  {
-    return false;
-  }
-  result.uv = snapScaled(space, *options.solution, options.targetQuads);
-  result.solution = *options.solution;
-  return findDefects(mesh, field, result.uv).none();
-}
-
 /// A start near the earlier map: where it knows a face, the shape that it has there takes the place of the one that the
 /// field asks for. The earlier map was scaled, the start is not.
 Eigen::VectorXd startNear(const Mesh& mesh, const SeamlessSpace& space, const CarriedMap& previous)
@@ -138,10 +125,6 @@ SeamlessResult computeSeamlessMap(
       "seamless map: the equations need more than 63 bits; fewer singularities would help" };
     return result;
   }
-  if (scaleKnown(mesh, field, space, options, result))
-  {
-    return result;
-  }
   Eigen::VectorXd start;
   MapDefects defects;
   if (options.previous != nullptr && options.previous->knownFaces > 0)
@@ -172,7 +155,6 @@ SeamlessResult computeSeamlessMap(
   followRequests(
     mesh, field, space.problem(), options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);
-  result.solution = std::move(untangled.y);
   result.newtonSteps = untangled.newtonSteps;
   if (!untangled.defects.none())
   {

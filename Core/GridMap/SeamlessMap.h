@@ -19,8 +19,6 @@ struct SeamlessOptions
   double edgeLength = 0; ///< length on the surface that one uv unit stands for; > 0
   /// 0, or the area that the map is scaled to in the end; scaling changes nothing else of it.
   double targetQuads = 0;
-  /// SeamlessResult::solution for the same mesh and field: it is scaled to targetQuads instead of solving again.
-  const Eigen::VectorXd* solution = nullptr;
   /// An earlier map in the charts of the field, or null: where a start near it has nothing inverted, it takes the place
   /// of the Poisson equation's solution.
   const CarriedMap* previous = nullptr;
@@ -32,7 +30,6 @@ struct SeamlessOptions
 struct SeamlessResult
 {
   std::vector<FixedVec2> uv; ///< #H; best effort when the status is not ok
-  Eigen::VectorXd solution;  ///< the free unknowns of the map, before scaling
   Status status;
   std::vector<Index> inverted; ///< faces left with !(det > 0)
   std::vector<Index>

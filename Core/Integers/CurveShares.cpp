@@ -17,6 +17,9 @@ namespace quadrille
 namespace
 {
 
+/// A part of a curve bends where that asks for so many times the edges that its length is worth, but for rounding.
+constexpr double kBent = 1 + 1e-9;
+
 /// #V: the map has no corner there.
 std::vector<std::uint8_t> smoothVertices(const Mesh& mesh, const CrossField& field)
 {
@@ -45,7 +48,7 @@ std::vector<std::vector<Index>> curveEdgesAt(const Mesh& mesh)
 
 } // namespace
 
-std::vector<double> sharesOfCurves(const Mesh& mesh, const CrossField& field,
+std::vector<CurveShare> sharesOfCurves(const Mesh& mesh, const CrossField& field,
   const std::vector<FixedVec2>& seamlessUv, double edgeLength, const UvMesh& decimated)
 {
   const std::vector<double> quads = quadsAlongCurves(mesh, edgeLength, smoothVertices(mesh, field));
@@ -54,18 +57,20 @@ std::vector<double> sharesOfCurves(const Mesh& mesh, const CrossField& field,
 
   // An edge of the decimated map is a part of a curve between two vertices that are left. Others between the same two
   // have another length in the map, or are as good.
-  std::map<std::tuple<Index, Index, std::int64_t>, double> shareOf;
+  std::map<std::tuple<Index, Index, std::int64_t>, CurveShare> shareOf;
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     for (Index edge : isLeft(v) ? edges[v] : std::vector<Index>{})
     {
       Index at = v;
-      double length = 0, asked = 0;
+      double length = 0;
+      CurveShare asked{ 0, 0 };
       std::int64_t inMap = 0;
       while (true)
       {
-        length += sizedLength(mesh, edge) / edgeLength;
-        asked += quads[edge];
+        const double straight = sizedLength(mesh, edge) / edgeLength;
+        length += straight;
+        (quads[edge] > kBent * straight ? asked.bent : asked.rest) += quads[edge];
         inMap += IntegerMap::lengthOf(seamlessUv[Mesh::next(edge)] - seamlessUv[edge]);
         at = mesh.otherEnd(edge, at);
         if (isLeft(at) || edges[at].size() != 2)
@@ -74,12 +79,15 @@ std::vector<double> sharesOfCurves(const Mesh& mesh, const CrossField& field,
         }
         edge = edges[at][0] == edge ? edges[at][1] : edges[at][0];
       }
-      double& share = shareOf[{ v, at, inMap }];
-      share = std::max({ 1.0, share, asked / length });
+      CurveShare& share = shareOf[{ v, at, inMap }];
+      if (asked.all() / length > share.all())
+      {
+        share = { asked.bent / length, asked.rest / length };
+      }
     }
   }
 
-  std::vector<double> shares(decimated.origin.size(), 1.0);
+  std::vector<CurveShare> shares(decimated.origin.size());
   for (Index h = 0; h < shares.size(); ++h)
   {
     const bool isCurve = decimated.alive[Mesh::face(h)] != 0 &&
@@ -88,7 +96,7 @@ std::vector<double> sharesOfCurves(const Mesh& mesh, const CrossField& field,
     {
       const auto found = shareOf.find(
         { decimated.origin[h], decimated.target(h), IntegerMap::lengthOf(decimated.vector(h)) });
-      shares[h] = found == shareOf.end() ? 1.0 : found->second;
+      shares[h] = found == shareOf.end() ? CurveShare{} : found->second;
     }
   }
   return shares;

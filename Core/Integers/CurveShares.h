@@ -5,7 +5,7 @@
 #pragma once
 
 #include "CrossField/CrossField.h"
-#include "Integers/UvMesh.h"
+#include "Integers/IntegerMap.h"
 #include "Mesh/Mesh.h"
 
 #include <vector>
@@ -13,10 +13,10 @@
 namespace quadrille
 {
 
-/// #H of `decimated`, a seamless map of the mesh without some of its vertices: how many times its length an edge of a
-/// curve should get, at least 1, so that quads stay near the curve (see quadsAlongCurves); 1 for edges on no curve.
-/// seamlessUv: #H of the mesh, whose isolines lie as those of the decimated map. edgeLength: s, in units of the mesh.
-std::vector<double> sharesOfCurves(const Mesh& mesh, const CrossField& field,
+/// #H of `decimated`, a seamless map of the mesh without some of its vertices: what an edge of a curve should get, so
+/// that quads stay near the curve (see quadsAlongCurves). seamlessUv: #H of the mesh, whose isolines lie as those of the
+/// decimated map. edgeLength: s, in units of the mesh.
+std::vector<CurveShare> sharesOfCurves(const Mesh& mesh, const CrossField& field,
   const std::vector<FixedVec2>& seamlessUv, double edgeLength, const UvMesh& decimated);
 
 } // namespace quadrille

@@ -40,12 +40,12 @@ std::int64_t nearestWithSign(double x, std::int64_t residue)
 } // namespace
 
 IntegerMap::IntegerMap(UvMesh& mesh, UvEditor& editor,
-  const std::vector<std::uint8_t>& integerVertex, std::vector<double> shares)
+  const std::vector<std::uint8_t>& integerVertex, std::vector<CurveShare> shares)
   : mesh_(mesh), editor_(editor), integerVertex_(integerVertex), q_(mesh.origin.size()),
     axis_(mesh.origin.size(), kFree), shares_(std::move(shares)),
-    wanted_(mesh.origin.size(), Vector2::Zero()), weight_(mesh.origin.size(), 0)
+    wanted_(mesh.origin.size(), Vector2::Zero()), target_(wanted_), weight_(mesh.origin.size(), 0)
 {
-  shares_.resize(mesh.origin.size(), 1.0);
+  shares_.resize(mesh.origin.size());
   for (Index f = 0; f < mesh_.alive.size(); ++f)
   {
     if (mesh_.alive[f])
@@ -136,9 +136,22 @@ FixedVec2 IntegerMap::along(Index h) const
 void IntegerMap::measure(Index h)
 {
   const FixedVec2 d = mesh_.vector(h);
-  wanted_[h] = shares_[h] * toDouble(d);
+  wanted_[h] = shares_[h].all() * toDouble(d);
+  target_[h] = (shares_[h].bent + pull_ * shares_[h].rest) * toDouble(d);
   const bool constrained = mesh_.twin[h] == kInvalidIndex || (mesh_.flags[h] & kUvConstrained) != 0;
   axis_[h] = !constrained ? kFree : d.v == 0 ? kOnlyU : kOnlyV;
+}
+
+void IntegerMap::setPull(double pull)
+{
+  pull_ = pull;
+  for (const Index f : faces_)
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      measure(h);
+    }
+  }
 }
 
 /// Cotangent of the angle opposite to h in the seamless map.
@@ -420,8 +433,8 @@ void IntegerMap::flip(Index h)
   editor_.flip(h);
   loop_[h] = std::exchange(loop_[gn], kInvalidIndex);
   loop_[g] = std::exchange(loop_[hn], kInvalidIndex);
-  shares_[h] = std::exchange(shares_[gn], 1.0);
-  shares_[g] = std::exchange(shares_[hn], 1.0);
+  shares_[h] = std::exchange(shares_[gn], {});
+  shares_[g] = std::exchange(shares_[hn], {});
   q_[h] = toD;
   q_[g] = toC;
   q_[hn] = -(toD + q_[hp]);
@@ -476,7 +489,7 @@ double IntegerMap::energy() const
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
       const double share = mesh_.twin[h] == kInvalidIndex ? 1.0 : 0.5;
-      sum += share * weight_[h] * (inQuads(q_[h]) - pull_ * wanted_[h]).squaredNorm();
+      sum += share * weight_[h] * (inQuads(q_[h]) - target_[h]).squaredNorm();
     }
   }
   return sum;

@@ -27,15 +27,22 @@ namespace quadrille
 /// Steps of a quad.
 constexpr std::int64_t kGrain = 16;
 
+/// What is wanted for an edge, in its lengths in the seamless map.
+struct CurveShare
+{
+  double bent = 0; ///< for where its curve bends, whatever the size of quads
+  double rest = 1; ///< follows the size of quads
+  double all() const { return bent + rest; }
+};
+
 /// A displacement per half-edge of a UvMesh; q[twin h] = -R90^rotation q[h]. Edges may be flipped, which the
 /// editor records.
 class IntegerMap
 {
 public:
-  /// integerVertex: #V; the vertices that have to lie at whole points. shares: #H or empty; so many times its length in
-  /// the seamless map is wanted for a half-edge.
+  /// integerVertex: #V; the vertices that have to lie at whole points. shares: #H or empty.
   IntegerMap(UvMesh& mesh, UvEditor& editor, const std::vector<std::uint8_t>& integerVertex,
-    std::vector<double> shares = {});
+    std::vector<CurveShare> shares = {});
 
   const UvMesh& mesh() const { return mesh_; }
   /// The faces that are alive, ascending.
@@ -43,8 +50,8 @@ public:
   /// Vertices that need not lie at whole points.
   const std::vector<Index>& freeVertices() const { return freeVertices_; }
   FixedVec2 operator[](Index h) const { return q_[h]; }
-  /// In quads.
-  Vector2 wanted(Index h) const { return wanted_[h]; }
+  /// In quads: what the energy is measured from, see setPull.
+  Vector2 target(Index h) const { return target_[h]; }
 
   /// Rounds `scale` times what is wanted; no half-edge becomes zero. Triangles need not close.
   void round(double scale);
@@ -59,10 +66,9 @@ public:
   void moveVertex(Index v, FixedVec2 e);
   /// Whether moving by e keeps the vertex on its curve, between its neighbours there.
   bool mayMove(Index v, FixedVec2 e) const;
-  /// From now on the energy is that of the difference to so many times what is wanted, >= 0; 1 at first. 0:
-  /// displacements become as short as triangles stay sound.
-  void setPull(double pull) { pull_ = pull; }
-  double pull() const { return pull_; }
+  /// From now on the energy is that of the difference to so many times what is wanted, but for curves that bend, which
+  /// keep their numbers; >= 0; 1 at first. 0: displacements become as short as triangles stay sound.
+  void setPull(double pull);
   /// The change of energy by moveVertex.
   double moveEnergy(Index v, FixedVec2 e) const;
 
@@ -97,7 +103,7 @@ public:
   /// Along the curve that h lies on, the way that lengthens it.
   FixedVec2 along(Index h) const;
 
-  /// The change of the energy sum weight |q - pull wanted|^2 by shift(h, e).
+  /// The change of the energy sum weight |q - target|^2 by shift(h, e).
   double energyChange(Index h, FixedVec2 e) const;
   double energy() const;
   /// In quads.
@@ -154,13 +160,13 @@ private:
   std::vector<std::uint8_t> integerVertex_;
   std::vector<Index> faces_;
   std::vector<Index> freeVertices_;
-  std::vector<FixedVec2> q_;    ///< #H
-  std::vector<Axis> axis_;      ///< #H
-  std::vector<double> shares_;  ///< #H, of their lengths in the seamless map
-  std::vector<Vector2> wanted_; ///< #H, in quads
-  std::vector<double> weight_;  ///< #H; the same on both sides
-  std::vector<int> turns_;      ///< #V; quarter turns in the seamless map
-  std::vector<Index> loop_;     ///< #H; of boundary half-edges
+  std::vector<FixedVec2> q_;             ///< #H
+  std::vector<Axis> axis_;               ///< #H
+  std::vector<CurveShare> shares_;       ///< #H
+  std::vector<Vector2> wanted_, target_; ///< #H, in quads: without and with the pull
+  std::vector<double> weight_;           ///< #H; the same on both sides
+  std::vector<int> turns_;               ///< #V; quarter turns in the seamless map
+  std::vector<Index> loop_;              ///< #H; of boundary half-edges
   std::vector<std::int64_t> loopLength_;
   std::int64_t shortage_ = 0; ///< of all loops
 };
@@ -189,7 +195,7 @@ inline bool IntegerMap::mayShift(Index h, FixedVec2 e) const
 inline double IntegerMap::energyChange(Index h, FixedVec2 e) const
 {
   const Vector2 d = inQuads(e);
-  return weight_[h] * d.dot(2 * (inQuads(q_[h]) - pull_ * wanted_[h]) + d);
+  return weight_[h] * d.dot(2 * (inQuads(q_[h]) - target_[h]) + d);
 }
 
 } // namespace quadrille

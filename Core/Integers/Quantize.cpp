@@ -16,6 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace quadrille
 {
@@ -195,15 +197,8 @@ public:
 
   bool isWhole() const { return isWhole_; }
 
-  void takeApart()
-  {
-    for (const Index h : joined_)
-    {
-      mesh_.twin[h] = kInvalidIndex;
-      mesh_.rotation[h] = 0;
-    }
-    joined_.clear();
-  }
+  /// Half-edges that were boundary.
+  const std::vector<Index>& joined() const { return joined_; }
 
 private:
   Index edgeOf(const Mesh& whole, const std::vector<Index>& part) const
@@ -236,6 +231,15 @@ private:
   bool isWhole_ = true;
 };
 
+void takeApart(const std::vector<Index>& joined, UvMesh& mesh)
+{
+  for (const Index h : joined)
+  {
+    mesh.twin[h] = kInvalidIndex;
+    mesh.rotation[h] = 0;
+  }
+}
+
 /// A vertex between the ends of a seam that may lie anywhere on it is none that its image need have.
 void freeSeams(const Mesh& mesh, const CrossField& field, LockedVertices& locked)
 {
@@ -260,92 +264,157 @@ Status tooFine(double growth)
 
 } // namespace
 
-QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
+struct Quantizer::State
+{
+  UvMesh mesh;
+  UvEditor editor;
+  LockedVertices locked;
+  std::size_t decimated = 0; ///< records of the editor, before the seams were joined
+  std::vector<Index> joined; ///< along seams
+  std::optional<IntegerMap> integers;
+  double wantedArea = 0;
+  QuantizeResult result; ///< but for its map
+
+  explicit State(UvMesh seamless) : mesh(std::move(seamless)), editor(mesh) {}
+
+  bool prepare(const Mesh& coarse, const CrossField& field,
+    const std::vector<FixedVec2>& seamlessUv, const QuantizeOptions& options)
+  {
+    const std::string defect = defectOf(mesh);
+    if (!defect.empty())
+    {
+      result.status = { StatusCode::Infeasible, "quantization: " + defect };
+      return false;
+    }
+    wantedArea = uvArea(mesh);
+    locked = lockedVertices(coarse, mesh, integerVertices(coarse, field), options.watched);
+    freeSeams(coarse, field, locked);
+    const std::vector<FixedVec2> lines = developedVectors(mesh, field);
+    decimateInUv(mesh, editor, locked.keep);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+    {
+      // One that cannot be locked is not lost for certain: the map is asked for it in the end.
+      lockLine(mesh, editor, locked.integer, coarse, field.isolines[i], lines[i]);
+    }
+    decimated = editor.recordCount();
+    const JoinedSides seams(mesh, coarse, field);
+    joined = seams.joined();
+    if (!seams.isWhole())
+    {
+      result.status = { StatusCode::NotConverged,
+        "quantization: the two sides of the cut have not the same corners and ends of features" };
+      return false;
+    }
+    integers.emplace(mesh, editor, locked.integer,
+      options.edgeLength > 0 ? sharesOfCurves(coarse, field, seamlessUv, options.edgeLength, mesh)
+                             : std::vector<CurveShare>{});
+    return true;
+  }
+
+  void findValid(const Mesh& coarse, const CrossField& field, const QuantizeOptions& options)
+  {
+    IntegerStart start;
+    if (options.previousUv != nullptr)
+    {
+      countTry(Try::EarlierIntegers);
+      start = startFrom(*options.previousUv, coarse, field, editor, *integers);
+      result.startedFromPrevious = start.valid;
+      countTryLed(Try::EarlierIntegers, start.valid ? 1 : 0);
+    }
+    if (!start.valid && options.anew)
+    {
+      try
+      {
+        start = findValidIntegers(*integers, 1, kMaximumScale, options.progress);
+      }
+      catch (const WorkSpent&)
+      {
+        throw QuantizingSpent(brokenFaces(*integers));
+      }
+    }
+    if (!start.valid)
+    {
+      result.status = { StatusCode::NotConverged,
+        options.anew ? "quantization: no valid integers up to scale " +
+            std::to_string(std::min(start.scale, kMaximumScale))
+                     : "quantization: the earlier integers lead to none" };
+      result.failedFaces = brokenFaces(*integers);
+    }
+  }
+};
+
+Quantizer::Quantizer(const Mesh& mesh, const CrossField& field,
   const std::vector<FixedVec2>& seamlessUv, const QuantizeOptions& options)
 {
   checkInput(mesh, field, seamlessUv);
-  if (!(options.pull >= 0 && options.pull <= 1))
+  state_ = std::make_unique<State>(UvMesh::from(mesh, field, seamlessUv));
+  state_->result.uv = seamlessUv;
+  if (state_->prepare(mesh, field, seamlessUv, options))
   {
-    throw InvalidInput("quantizeMap: the share of the sizes that integers keep must be in [0, 1]");
+    state_->findValid(mesh, field, options);
   }
-  QuantizeResult result;
-  result.uv = seamlessUv;
-  UvMesh uvMesh = UvMesh::from(mesh, field, seamlessUv);
-  const std::string defect = defectOf(uvMesh);
-  if (!defect.empty())
-  {
-    result.status = { StatusCode::Infeasible, "quantization: " + defect };
-    return result;
-  }
-  const double wantedArea = uvArea(uvMesh);
-  UvEditor editor(uvMesh);
-  LockedVertices locked =
-    lockedVertices(mesh, uvMesh, integerVertices(mesh, field), options.watched);
-  freeSeams(mesh, field, locked);
-  const std::vector<FixedVec2> lines = developedVectors(uvMesh, field);
-  decimateInUv(uvMesh, editor, locked.keep);
-  for (std::size_t i = 0; i < lines.size(); ++i)
-  {
-    // One that cannot be locked is not lost for certain: the map is asked for it in the end.
-    lockLine(uvMesh, editor, locked.integer, mesh, field.isolines[i], lines[i]);
-  }
+}
 
-  const std::size_t decimated = editor.recordCount();
-  JoinedSides seams(uvMesh, mesh, field);
-  if (!seams.isWhole())
+Quantizer::~Quantizer() = default;
+
+const Status& Quantizer::status() const
+{
+  return state_->result.status;
+}
+
+bool Quantizer::startedFromPrevious() const
+{
+  return state_->result.startedFromPrevious;
+}
+
+void Quantizer::improve(double pull, const ProgressCallback& progress)
+{
+  state_->integers->setPull(pull);
+  improveIntegers(*state_->integers, progress);
+}
+
+double Quantizer::area() const
+{
+  return state_->integers->area();
+}
+
+QuantizeResult Quantizer::result() const
+{
+  QuantizeResult result = state_->result;
+  if (!result.status.ok())
   {
-    result.status = { StatusCode::NotConverged,
-      "quantization: the two sides of the cut have not the same corners and ends of features" };
     return result;
   }
-  IntegerMap integers(uvMesh, editor, locked.integer,
-    options.edgeLength > 0 ? sharesOfCurves(mesh, field, seamlessUv, options.edgeLength, uvMesh)
-                           : std::vector<double>{});
-  IntegerStart start;
-  if (options.previousUv != nullptr)
-  {
-    countTry(Try::EarlierIntegers);
-    start = startFrom(*options.previousUv, mesh, field, editor, integers);
-    result.startedFromPrevious = start.valid;
-    if (start.valid)
-    {
-      countTryLed(Try::EarlierIntegers);
-    }
-  }
-  if (!start.valid && options.anew)
-  {
-    try
-    {
-      start = findValidIntegers(integers, 1, kMaximumScale, options.progress);
-    }
-    catch (const WorkSpent&)
-    {
-      throw QuantizingSpent(brokenFaces(integers));
-    }
-  }
-  if (!start.valid)
-  {
-    result.status = { StatusCode::NotConverged,
-      options.anew ? "quantization: no valid integers up to scale " +
-          std::to_string(std::min(start.scale, kMaximumScale))
-                   : "quantization: the earlier integers lead to none" };
-    result.failedFaces = brokenFaces(integers);
-    return result;
-  }
-  integers.setPull(options.pull);
-  improveIntegers(integers, options.progress);
-  result.refinement = std::max(1.0, std::sqrt(integers.area() / wantedArea));
-  integrate(integers, locked.integer, uvMesh);
-  editor.undoTo(decimated, locked.keep);
-  seams.takeApart();
-  editor.undoTo(0, locked.keep);
-  joinCharts(uvMesh);
-  result.uv = uvMesh.uv;
+  result.refinement = std::max(1.0, std::sqrt(area() / state_->wantedArea));
+  UvMesh mesh = state_->mesh;
+  UvEditor editor(mesh, state_->editor);
+  integrate(*state_->integers, state_->locked.integer, mesh);
+  editor.undoTo(state_->decimated, state_->locked.keep);
+  takeApart(state_->joined, mesh);
+  editor.undoTo(0, state_->locked.keep);
+  joinCharts(mesh);
+  result.uv = std::move(mesh.uv);
   if (result.refinement > kMostRefinement)
   {
     result.status = tooFine(result.refinement);
   }
   return result;
+}
+
+QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& seamlessUv, const QuantizeOptions& options)
+{
+  if (!(options.pull >= 0))
+  {
+    throw InvalidInput(
+      "quantizeMap: the share of the sizes that integers keep must not be negative");
+  }
+  Quantizer quantizer(mesh, field, seamlessUv, options);
+  if (quantizer.status().ok())
+  {
+    quantizer.improve(options.pull, options.progress);
+  }
+  return quantizer.result();
 }
 
 } // namespace quadrille

@@ -374,9 +374,9 @@ private:
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        const Vector2 wanted = double(kGrain) * map_.pull() * map_.wanted(h);
-        farthest = std::max({ farthest, std::abs(static_cast<double>(map_[h].u) - wanted.x()),
-          std::abs(static_cast<double>(map_[h].v) - wanted.y()) });
+        const Vector2 target = double(kGrain) * map_.target(h);
+        farthest = std::max({ farthest, std::abs(static_cast<double>(map_[h].u) - target.x()),
+          std::abs(static_cast<double>(map_[h].v) - target.y()) });
       }
     }
     std::int64_t length = kGrain;

@@ -104,6 +104,11 @@ class UvEditor
 {
 public:
   explicit UvEditor(UvMesh& mesh) : mesh_(mesh) {}
+  /// Of a copy of the mesh that `done` has edited, to undo that there.
+  UvEditor(UvMesh& copy, const UvEditor& done)
+    : mesh_(copy), records_(done.records_), states_(done.states_)
+  {
+  }
 
   /// Whether the edge may be flipped so that both new triangles have a positive determinant.
   bool canFlip(Index h) const;

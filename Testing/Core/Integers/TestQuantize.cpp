@@ -323,6 +323,43 @@ TEST(Quantize, IntegersOfAnotherScaleAreAStart)
   }
 }
 
+TEST(Quantize, OneSearchHasTheIntegersOfEachNumber)
+{
+  for (const Case& c : cases(6.3))
+  {
+    SCOPED_TRACE(c.name);
+    Quantizer quantizer(c.map.mesh, c.map.field, c.map.uv, {});
+    ASSERT_TRUE(quantizer.status().ok()) << quantizer.status().message;
+    EXPECT_FALSE(quantizer.startedFromPrevious());
+    for (const double pull : { 1.0, 0.6, 0.4, 1.0 })
+    {
+      SCOPED_TRACE(pull);
+      quantizer.improve(pull, {});
+      const QuantizeResult result = quantizer.result();
+      ASSERT_TRUE(result.status.ok()) << result.status.message;
+      expectWhole(c.map, result.uv);
+      EXPECT_NEAR(uvArea(result.uv), quantizer.area(), 1e-6 * quantizer.area());
+      EXPECT_NEAR(quantizer.area() / (pull * pull * uvArea(c.map.uv)), 1, 0.35);
+    }
+  }
+}
+
+TEST(IntegerMap, CurvesThatBendKeepTheirNumber)
+{
+  const SyntheticMap map = plateMap(plateWithHole(4), 3, 4, 5, 4);
+  UvMesh uvMesh = UvMesh::from(map.mesh, map.field, map.uv);
+  UvEditor editor(uvMesh);
+  std::vector<CurveShare> shares(uvMesh.origin.size());
+  shares[0] = { 1.5, 0.25 };
+  IntegerMap integers(uvMesh, editor, integerVertices(map.mesh, map.field), shares);
+  const Vector2 bent = toDouble(uvMesh.vector(0)), other = toDouble(uvMesh.vector(1));
+  EXPECT_EQ(integers.target(0), 1.75 * bent);
+  EXPECT_EQ(integers.target(1), other);
+  integers.setPull(0.5);
+  EXPECT_EQ(integers.target(0), 1.625 * bent);
+  EXPECT_EQ(integers.target(1), 0.5 * other);
+}
+
 TEST(IntegerMap, TrianglesOfAnotherMapCloseInAnyCharts)
 {
   SyntheticMap map;
