@@ -269,8 +269,9 @@ public:
    * MaximumNumberOfQuads; SMALL_DETAILS_SIMPLIFY takes them out of the surface: handles are cut along their shortest
    * loop and closed on both sides, boundary loops filled; SMALL_DETAILS_KEEP leaves surface and sizes as they are,
    * and the run fails where that is impossible. SMALL_DETAILS_AUTOMATIC simplifies those below SmallestDetail and
-   * crowds of handles, and resolves the others where that takes at most 1.6 times the quads; components with less area than a quad are left out where the smallest blocks for all small ones (see
-   * SmallComponents) would be more quads than are asked for. With METHOD_MIXED_INTEGER and QUADCOVER,
+   * crowds of handles on surfaces that are not known as designed, and resolves the others where that takes at most 1.6
+   * times the quads; components with less area than a quad are left out where the smallest blocks for all small ones
+   * (see SmallComponents) would be more quads than are asked for. With METHOD_MIXED_INTEGER and QUADCOVER,
    * INTEGERS_COARSEST and a Symmetry nothing is simplified by it, nor by SMALL_DETAILS_SIMPLIFY with a Symmetry.
    * Output 7 has them all. Default: SMALL_DETAILS_AUTOMATIC.
    */

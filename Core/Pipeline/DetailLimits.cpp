@@ -39,6 +39,10 @@ DetailLimits detailLimits(double edgeLength, double smallest, bool takesAll, boo
 
 bool isCrowdToCut(const DetailLimits& limits, const RunContext& run)
 {
+  if (run.surface->facets.isDesigned)
+  {
+    return false; // bores, each of which is meant
+  }
   const ShortLoops& found = run.shortLoops;
   std::vector<HandleLoop> handles;
   std::copy_if(found.loops.cbegin(), endOfHandles(found), std::back_inserter(handles),

@@ -27,7 +27,7 @@ struct DetailLimits
 DetailLimits detailLimits(double edgeLength, double smallest, bool takesAll, bool isRest);
 
 /// Whether the handles at least as long as the limit are so many, and smaller quads round them would be so many more,
-/// that all short ones are cut. The short loops of the run were found.
+/// that all short ones are cut; never on a designed body. The short loops of the run were found.
 bool isCrowdToCut(const DetailLimits& limits, const RunContext& run);
 
 /// Below the limit. Those of components with less area than a closed block of quads are left to them.

@@ -27,8 +27,8 @@ struct Settled
 
 /// Where nothing is to be simplified, `sized` and the levels are what they are without; else its surface is another
 /// one, with its key. Boundary loops are measured on the surface itself and filled at once. Handles are found on the
-/// intermediate level and cut, until no short one is left that can be. Automatic cuts all short handles where they are a
-/// crowd. Stages go to `sized`.
+/// intermediate level and cut, until no short one is left that can be. Automatic cuts all short handles where they are
+/// a crowd, of a surface that is not known as designed. Stages go to `sized`.
 Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultStore* store);
 
 /// Whether Automatic has left details that simplifyRest would take out.

@@ -156,8 +156,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         components; 0: nothing.
     small_details: what becomes of handles and holes that are shorter round than three target edge lengths: "resolve",
         quads are smaller there; "simplify", handles are closed and holes filled; "keep", as they are, or a RemeshError
-        where that is impossible; "automatic", below smallest_detail, and crowds of handles, simplified, else resolved
-        where that takes at most 1.6 times the quads.
+        where that is impossible; "automatic", below smallest_detail, and crowds of handles on surfaces not known as
+        designed, simplified, else resolved where that takes at most 1.6 times the quads.
     small_components: connected components with less area than the smallest block of quads has: "keep", as about that
         many quads, or "remove".
     method: how the map is made: "scale-aware", "mixed-integer" or "quadcover" (both may leave inverted triangles), or
