@@ -14,8 +14,8 @@ namespace quadrille
 {
 
 /// #H of `decimated`, a seamless map of the mesh without some of its vertices: what an edge of a curve should get, so
-/// that quads stay near the curve (see quadsAlongCurves). seamlessUv: #H of the mesh, whose isolines lie as those of the
-/// decimated map. edgeLength: s, in units of the mesh.
+/// that quads stay near the curve (see quadsAlongCurves). seamlessUv: #H of the mesh, whose isolines lie as those of
+/// the decimated map. edgeLength: s, in units of the mesh.
 std::vector<CurveShare> sharesOfCurves(const Mesh& mesh, const CrossField& field,
   const std::vector<FixedVec2>& seamlessUv, double edgeLength, const UvMesh& decimated);
 
