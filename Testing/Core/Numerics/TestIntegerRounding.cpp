@@ -17,10 +17,22 @@ using namespace quadrille;
 namespace
 {
 
+/// By the one dense solver of these tests: each further one, and each further form of product, is
+/// seconds of the compiler.
+Eigen::MatrixXd solveDense(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right)
+{
+  return Eigen::FullPivLU<Eigen::MatrixXd>(matrix).solve(right);
+}
+
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
+{
+  return a * b;
+}
+
 /// y^T A y / 2 - b^T y and k forms, the columns of C.
 struct Problem
 {
-  Eigen::MatrixXd A, C;
+  Eigen::MatrixXd A, C, transposed; ///< the last that of C
   Eigen::VectorXd b;
 
   Problem(int n, int k, unsigned seed)
@@ -29,8 +41,9 @@ struct Problem
     std::uniform_real_distribution<double> number(-1, 1);
     const auto draw = [&](double) { return number(random); };
     const Eigen::MatrixXd half = Eigen::MatrixXd::Zero(n, n).unaryExpr(draw);
-    A = half * half.transpose() + Eigen::MatrixXd::Identity(n, n);
+    A = product(half, half.transpose()) + Eigen::MatrixXd::Identity(n, n);
     C = Eigen::MatrixXd::Zero(n, k).unaryExpr(draw);
+    transposed = C.transpose();
     b = 20 * Eigen::VectorXd::Zero(n).unaryExpr(draw);
   }
 
@@ -39,16 +52,16 @@ struct Problem
   {
     const Eigen::Index n = A.rows(), m = static_cast<Eigen::Index>(fixed.size());
     Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(n + m, n + m);
-    Eigen::VectorXd right(n + m);
+    Eigen::MatrixXd right(n + m, 1);
     kkt.topLeftCorner(n, n) = A;
-    right.head(n) = b;
+    right.topRows(n) = b;
     for (Eigen::Index i = 0; i < m; ++i)
     {
       kkt.block(0, n + i, n, 1) = C.col(fixed[i]);
       kkt.block(n + i, 0, 1, n) = C.col(fixed[i]).transpose();
-      right[n + i] = values[i];
+      right(n + i, 0) = values[i];
     }
-    return kkt.fullPivLu().solve(right).head(n);
+    return solveDense(kkt, right).topRows(n);
   }
 };
 
@@ -64,11 +77,12 @@ Eigen::VectorXd roundByResolving(const Problem& problem, const std::vector<std::
   Eigen::VectorXd y = problem.solve(fixed, values);
   for (const std::uint8_t batch : { 0, 1 })
   {
-    const Eigen::VectorXd atBegin = problem.C.transpose() * y;
+    const Eigen::VectorXd atBegin = product(problem.transposed, y);
     for (;;)
     {
-      const Eigen::VectorXd x =
-        order == RoundingOrder::OneAtATime ? Eigen::VectorXd(problem.C.transpose() * y) : atBegin;
+      const Eigen::VectorXd x = order == RoundingOrder::OneAtATime
+        ? Eigen::VectorXd(product(problem.transposed, y))
+        : atBegin;
       int best = -1;
       double distance = std::numeric_limits<double>::infinity();
       for (int j = 0; j < k; ++j)
@@ -103,19 +117,18 @@ TEST(IntegerRounding, IsTheSameAsSolvingAgainAfterEachInteger)
     const Problem problem(14, 6, seed);
     std::vector<std::uint8_t> last(6, 0);
     last[seed % 6] = seed % 2;
-    const Eigen::MatrixXd inverse = problem.A.inverse();
-    const Eigen::VectorXd y = inverse * problem.b;
+    const Eigen::VectorXd y = solveDense(problem.A, problem.b);
+    const Eigen::MatrixXd solved = solveDense(problem.A, problem.C);
     std::vector<std::int64_t> oneByOne;
     for (const RoundingOrder order : { RoundingOrder::OneAtATime, RoundingOrder::AllAtOnce })
     {
       const RoundedForms rounded = roundForms(
-        problem.C.transpose() * inverse * problem.C, problem.C.transpose() * y, last, order);
+        product(problem.transposed, solved), product(problem.transposed, y), last, order);
       std::vector<std::int64_t> expected;
       const Eigen::VectorXd end = roundByResolving(problem, last, order, expected);
       EXPECT_EQ(rounded.value, expected) << seed;
-      EXPECT_LT(
-        (y + inverse * problem.C * rounded.multiplier - end).norm(), 1e-7 * (1 + end.norm()))
-        << seed;
+      const Eigen::VectorXd moved = product(solved, rounded.multiplier);
+      EXPECT_LT((y + moved - end).norm(), 1e-7 * (1 + end.norm())) << seed;
       differences += order == RoundingOrder::AllAtOnce && rounded.value != oneByOne ? 1 : 0;
       oneByOne = rounded.value;
     }
@@ -145,7 +158,7 @@ TEST(SparseCholesky, GivesTheSchurComplementOfSparseColumns)
       dense(i, i) = 4;
       dense(i, random() % kSize) += number(random);
     }
-    dense = (dense * dense.transpose()).eval();
+    dense = product(dense, dense.transpose());
     Eigen::MatrixXd c = Eigen::MatrixXd::Zero(kSize, columns);
     for (int j = 0; j < columns; ++j)
     {
@@ -161,7 +174,7 @@ TEST(SparseCholesky, GivesTheSchurComplementOfSparseColumns)
     solver.analyze(lower);
     ASSERT_TRUE(solver.factorize(lower, 0));
     const Eigen::MatrixXd schur = solver.schur(c.sparseView());
-    const Eigen::MatrixXd expected = c.transpose() * dense.inverse() * c;
+    const Eigen::MatrixXd expected = product(c.transpose(), solveDense(dense, c));
     ASSERT_EQ(schur.rows(), columns);
     EXPECT_LT((schur - expected).norm(), 1e-12 * (1 + expected.norm())) << columns;
   }
