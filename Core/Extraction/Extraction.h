@@ -11,6 +11,7 @@
 #include "Mesh/Mesh.h"
 #include "Mesh/Requests.h"
 #include "Quads/QuadMesh.h"
+#include "Quads/QuadSmoothing.h"
 
 #include <string>
 #include <utility>
@@ -50,7 +51,8 @@ struct ExtractionOptions
   ChainsOfQuads keptChains; ///< see QuadRepairOptions
   /// Vertices of the mesh, ascending, whose quad vertices smoothing must not move (irregular ones that were asked for).
   std::vector<Index> fixedVertices;
-  std::vector<FaceGuide> guides; ///< see SmoothingOptions
+  std::vector<WantedPlace> wanted; ///< see SmoothingOptions
+  std::vector<FaceGuide> guides;   ///< the same
   /// Whether the map's certificate is valid (GridMap/Certificate.h): then edges are not checked again.
   bool mapIsCertified = false;
   const SurfaceShape* shape = nullptr; ///< shapeOf the mesh, where the caller has it

@@ -193,22 +193,24 @@ std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<F
   return made.quads.quads.size();
 }
 
-/// Irregular vertices that were asked for, and those that connections join.
-std::vector<Index> verticesThatStay(const PreparedSurface& surface, const RunMap& map)
+/// What connections join is wanted where their lines end: the map has it where it was before points were smoothed.
+std::vector<WantedPlace> wantedEnds(
+  const PreparedSurface& surface, const std::vector<CurveOutcome>& curves, const Level& coarse)
 {
-  std::vector<Index> vertices = heldIndexVertices(surface);
-  for (const CurveOutcome& curve : map.curves)
+  std::vector<WantedPlace> ends;
+  for (std::size_t i = 0; i < curves.size(); ++i)
   {
-    for (const Index v : { curve.from, curve.to })
+    const std::vector<Vector3>& points = surface.curves[i].points;
+    for (const auto& [v, place] :
+      { std::pair(curves[i].from, points.front()), std::pair(curves[i].to, points.back()) })
     {
-      if (curve.met && v != kInvalidIndex)
+      if (curves[i].met && v != kInvalidIndex)
       {
-        vertices.push_back(map.coarse.fineVertex[v]);
+        ends.push_back({ coarse.fineVertex[v], place });
       }
     }
   }
-  sortUnique(vertices);
-  return vertices;
+  return ends;
 }
 
 /// What connections and cycles have become in the quads.
@@ -251,7 +253,8 @@ ExtractionOptions extractionOptions(
   options.smoothingSteps = run.smoothingSteps;
   options.maximumNumberOfQuads = run.maximumNumberOfQuads;
   options.threads = run.threads;
-  options.fixedVertices = verticesThatStay(surface, map);
+  options.fixedVertices = heldIndexVertices(surface);
+  options.wanted = wantedEnds(surface, map.curves, map.coarse);
   if (!map.curves.empty())
   {
     options.keptChains = [&surface, &map, &run](const QuadMesh& quads)
