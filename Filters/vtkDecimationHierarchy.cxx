@@ -15,6 +15,7 @@
 #include "Pipeline/FirstLevels.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/SizedSurface.h"
+#include "Requests/CycleSectors.h"
 #include "Requests/Guides.h"
 #include "Session/Moves.h"
 #include "Stages/Log.h"
@@ -24,6 +25,9 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
+
+#include <algorithm>
+#include <utility>
 
 vtkStandardNewMacro(vtkDecimationHierarchy);
 
@@ -95,8 +99,9 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   options.smallDetails = quadrille::SmallDetails::Resolve;
   options.decimationCost = costOf(this->DecimationCost);
   quadrille::checkOptions(options);
-  const std::vector<quadrille::CurveRequest> curves = converted.input.curves;
-  const quadrille::DrawnRequests drawn = converted.input.drawn;
+  // The log knows features alone, which cycles become.
+  quadrille::DrawnRequests drawn = converted.input.drawn;
+  drawn.features = quadrille::featuresWithCycles(std::move(drawn.features), converted.input.curves);
   quadrille::ResultStore* store = this->KeepLevels ? &held.levels : nullptr;
   if (store != nullptr && !hasRoom(converted.input, options, *store))
   {
@@ -122,7 +127,10 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   const auto made = std::make_shared<quadrille::SharedSurface>();
   made->key.input = store != nullptr ? entered.known.inputHash
                                      : quadrille::contentHash(framed.input, options.threads);
-  made->key.drawn = quadrille::drawnHash(framed.input.drawn);
+  quadrille::DrawnRequests drawnInFrame = framed.input.drawn;
+  drawnInFrame.features =
+    quadrille::featuresWithCycles(std::move(drawnInFrame.features), framed.input.curves);
+  made->key.drawn = quadrille::drawnHash(std::move(drawnInFrame));
   options.progress =
     this->MakeProgress(0.0, 1.8); // the levels end where half of a whole run is done
   quadrille::SizedSurface sized = quadrille::sizeSurface(framed.input, options, entered.known);
@@ -168,6 +176,12 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   quadrille::addNumber(coarse, "TargetEdgeLength", frame.unit * sized.edgeLength);
   quadrille::addCount(coarse, "TargetQuads", sized.targetQuads);
   quadrille::addCount(coarse, "SizeWish", static_cast<std::size_t>(levels.sizes));
+  std::vector<quadrille::CurveRequest> curves = surface.curves;
+  for (quadrille::CurveRequest& curve : curves)
+  {
+    std::transform(curve.points.begin(), curve.points.end(), curve.points.begin(),
+      [&frame](const quadrille::Vector3& p) { return frame.toUser(p); });
+  }
   quadrille::addCurveRequests(coarse, curves);
   quadrille::addText(coarse, "ReusedStages", reused);
   quadrille::addFields(coarse, quadrille::stageFields(sized.stages.all()));

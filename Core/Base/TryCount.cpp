@@ -32,6 +32,7 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
     "6 maps" },
   { "pipeline", "carried map held", "final quality with vertices near inverted quads held", "3" },
   { "map", "fewer irregular at seams", "the map again with fewer irregular vertices", "1" },
+  { "map", "bent cycles", "irregular vertices may lie on cycles", "1 map" },
   { "map", "without the earlier map", "the map again from the beginning", "1" },
   { "map", "without the curves", "the map without the asked curves, as a measure and to begin with",
     "1" },

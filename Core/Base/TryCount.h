@@ -27,6 +27,7 @@ enum class Try : std::uint8_t
   LargerPull,
   CarriedMapHeld,
   SeamsFewer,
+  BentCycles,
   WithoutEarlier,
   WithoutCurves,
   StraightWays,

@@ -27,8 +27,7 @@ namespace quadrille
 /// A line that the field runs along, through unconstrained edges, the same axis all the way.
 struct FieldLine
 {
-  std::vector<Index>
-    crossed; ///< half-edges through which it leaves its faces; a closed one comes back to the first
+  std::vector<Index> crossed; ///< half-edges through which it leaves its faces
   std::vector<Vector3>
     along; ///< its direction, of any length, in each face; one more than `crossed`
 };
@@ -66,18 +65,15 @@ struct CrossFieldOptions
   SizeWish sizes = SizeWish::None;
 };
 
-/// A line of the map along an axis that joins two vertices, or closes on itself, along a way through the faces: the
-/// other coordinate is the same at both ends.
+/// A line of the map along an axis that joins two vertices along a way through the faces: the other coordinate is the
+/// same at both ends.
 struct Isoline
 {
-  Index start =
-    kInvalidIndex; ///< corner at the first vertex, in the first face; closed: any corner of that
-  Index end =
-    kInvalidIndex; ///< corner at the last vertex, in the last face; closed: that of `start`
+  Index start = kInvalidIndex; ///< corner at the first vertex, in the first face
+  Index end = kInvalidIndex;   ///< corner at the last vertex, in the last face
   std::vector<Index>
     crossed;    ///< half-edges through which the way leaves its faces; none is constrained
   int axis = 0; ///< quarter turns from the first axis of the first face
-  bool closed = false;
 };
 
 /// A guide that the field follows in a face.

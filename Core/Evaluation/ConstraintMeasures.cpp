@@ -458,6 +458,18 @@ ConstraintMeasure ConstraintMeasures::line(
     return word;
   }
   const std::optional<LineInQuads> found = lineInQuads(constraint);
+  const bool isCycle = constraint.kind == ConstraintKind::Cycle;
+  if (isCycle && !(found && found->distance <= kMetCycle))
+  {
+    ConstraintMeasure edges = curve(constraint.path);
+    if (edges.isMet)
+    {
+      edges.isMet = false;
+      edges.reason = "the quads' edges run along it, but turn at irregular vertices on it: draw it "
+                     "farther from others and from corners, or ask for smaller quads";
+      return edges;
+    }
+  }
   if (found)
   {
     word.deviation = found->distance;
@@ -469,7 +481,7 @@ ConstraintMeasure ConstraintMeasures::line(
         shortText(kMetEnds) + " count as met: end the line there";
     const std::string away = "the chain of edges is up to " + shortText(found->distance) +
       " edge lengths away from the line";
-    if (word.isMet && constraint.kind == ConstraintKind::Cycle && found->distance > kMetCycle)
+    if (word.isMet && isCycle && found->distance > kMetCycle)
     {
       word.isMet = false;
       word.reason = away + ", at most " + shortText(kMetCycle) + " count as met";

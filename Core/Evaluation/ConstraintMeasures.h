@@ -24,8 +24,8 @@ constexpr double kMetAngle = 5;
 /// Places (valences, moves) and feature lines: edge lengths of the quads there, at most.
 constexpr double kMetDistance = 0.3;
 /// Cycles: mean edge lengths from the chain to the line or back, at most.
-constexpr double kMetCycle = 3;
-/// Connections and cycles: the same, from which on it is told of those that are met.
+constexpr double kMetCycle = 0.5;
+/// Connections: the same, from which on it is told of those that are met.
 constexpr double kToldLine = 0.5;
 /// Guides: a share of irregular vertices in the guided region above this is worth a word.
 constexpr double kNotableShare = 0.1;

@@ -6,6 +6,7 @@
 #include "Base/Progress.h"
 #include "Base/TryCount.h"
 #include "CrossField/CrossField.h"
+#include "Requests/CycleSectors.h"
 #include "Requests/StraightRequests.h"
 
 #include <algorithm>
@@ -26,6 +27,11 @@ void FieldOfMap::computeField()
   fieldOptions.regular.assign(options_.fewIrregular ? mesh_.vertexCount() : 0, 1);
   fieldOptions.sectorTurns =
     straightSectors(mesh_, straight_, seamSectors(mesh_, seams_, options_.sectorTurns));
+  if (try_.straightCycles && hasCycles(options_.curves))
+  {
+    fieldOptions.sectorTurns = straightAlong(
+      mesh_, edgesOfCycles(mesh_, options_.curves, onCycle()), std::move(fieldOptions.sectorTurns));
+  }
   result_.field = computeCrossField(mesh_, fieldOptions);
   if (!options_.curves.empty() && makesLines() && result_.field.status.ok())
   {
@@ -60,7 +66,7 @@ void FieldOfMap::followCurves(CrossFieldOptions fieldOptions)
   std::vector<FollowedCurve> curves;
   for (std::size_t i = 0; i < options_.curves.size(); ++i)
   {
-    if (!isLeftOut(i))
+    if (!isLeftOut(i) && options_.curves[i].kind == CurveKind::Connection)
     {
       curves.push_back({ options_.curves[i], wayOf(i) });
     }
@@ -86,7 +92,7 @@ void FieldOfMap::followCurves(CrossFieldOptions fieldOptions)
     const bool isOther = !all && try_.holdsIrregular;
     countTry(Try::IrregularAtEnds, isOther ? 1 : 0);
     CrossField led = computeCrossField(mesh_, fieldOptions);
-    if (led.status.ok() && (!all || cyclesClose(led, curves)))
+    if (led.status.ok())
     {
       countTryLed(Try::IrregularAtEnds, isOther ? 1 : 0);
       holdsIrregular_ = all;
@@ -97,21 +103,16 @@ void FieldOfMap::followCurves(CrossFieldOptions fieldOptions)
   }
 }
 
-bool FieldOfMap::cyclesClose(
-  const CrossField& field, const std::vector<FollowedCurve>& curves) const
-{
-  return std::all_of(curves.begin(), curves.end(),
-    [&](const FollowedCurve& followed)
-    {
-      return followed.curve.kind != CurveKind::Cycle ||
-        lineOf(mesh_, field, followed.curve, options_.edgeLength).hasLine;
-    });
-}
-
 void FieldOfMap::addLines()
 {
   for (std::size_t i = 0; i < options_.curves.size(); ++i)
   {
+    if (options_.curves[i].kind == CurveKind::Cycle)
+    {
+      lines_.emplace_back();
+      lines_.back().outcome.start = lines_.back().outcome.end = options_.curves[i].points.front();
+      continue;
+    }
     lines_.push_back(lineOf(mesh_, result_.field, options_.curves[i], options_.edgeLength));
     RequestedLine& line = lines_.back();
     if (isLeftOut(i))
@@ -133,10 +134,28 @@ void FieldOfMap::addLines()
   }
 }
 
+void FieldOfMap::judgeCycle(const CurveRequest& cycle, CurveOutcome& outcome) const
+{
+  outcome.met = result_.status.ok() &&
+    isStraightAlong(mesh_, edgesOfCycles(mesh_, { cycle }, onCycle()), result_.field.sectorTurns);
+  if (result_.status.ok() && !outcome.met)
+  {
+    outcome.why = "features and irregular vertices leave the quads no room to go straight on along "
+                  "it: draw it farther from them, or ask for smaller quads";
+  }
+}
+
 void FieldOfMap::judgeLines()
 {
-  for (RequestedLine& line : lines_)
+  for (std::size_t i = 0; i < lines_.size(); ++i)
   {
+    RequestedLine& line = lines_[i];
+    if (options_.curves[i].kind == CurveKind::Cycle)
+    {
+      judgeCycle(options_.curves[i], line.outcome);
+      result_.curves.push_back(line.outcome);
+      continue;
+    }
     if (result_.status.ok() && line.isWanted() && makesLines())
     {
       line.outcome.met = hasGridLine(mesh_, result_.field, result_.uv, line, options_.edgeLength);
@@ -149,7 +168,7 @@ void FieldOfMap::judgeLines()
     if (!makesLines())
     {
       line.outcome.why = std::string("the method '") + nameOf(options_.method) +
-        "' makes no connections and cycles: choose scale aware";
+        "' makes no connections: choose scale aware";
     }
     if (line.outcome.met)
     {

@@ -25,6 +25,8 @@ struct CurveTry
   /// Whether all irregular vertices of the field without curves stay, or only those at ends of connections.
   bool holdsIrregular = true;
   int maximumSteps = 0; ///< of the seamless map; 0: as many as it takes
+  /// Whether no irregular vertex may lie on cycles.
+  bool straightCycles = true;
 };
 
 class FieldOfMap
@@ -47,11 +49,12 @@ public:
   bool holdsIrregular() const { return holdsIrregular_; }
 
 private:
-  /// The field once more, led along the curves. All its irregular vertices stay, as they are those that the user has
-  /// seen; where a cycle cannot close between them, and where no map has the lines so, those at the ends of connections
-  /// only.
+  /// The field once more, led along the connections. All its irregular vertices stay, as they are those that the user
+  /// has seen; where no field or no map has the lines so, those at the ends of connections only.
   void followCurves(CrossFieldOptions fieldOptions);
-  bool cyclesClose(const CrossField& field, const std::vector<FollowedCurve>& curves) const;
+  /// Vertices of cycles lie on them but for rounding.
+  double onCycle() const { return 1e-6 * options_.edgeLength; }
+  void judgeCycle(const CurveRequest& cycle, CurveOutcome& outcome) const;
   /// The others round, or have no integers at all.
   bool makesLines() const { return options_.method == MapMethod::ScaleAware; }
 

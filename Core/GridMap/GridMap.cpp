@@ -9,6 +9,7 @@
 #include "GridMap/FieldOfMap.h"
 #include "GridMap/MapShape.h"
 #include "Integers/CurveIsolines.h"
+#include "Requests/CycleSectors.h"
 
 #include <algorithm>
 #include <array>
@@ -53,12 +54,6 @@ constexpr int kStepsOfFirstTry = 220;
 /// How many times the steps of the map without curves that one with curves may need.
 constexpr int kStepsOverPlain = 5;
 
-std::size_t countUnmet(const GridMapResult& map)
-{
-  return static_cast<std::size_t>(std::count_if(
-    map.curves.begin(), map.curves.end(), [](const CurveOutcome& curve) { return !curve.met; }));
-}
-
 /// A map with as many of the curves as it can have, the earlier ones before the later ones. Where there is no map even
 /// without them, it is not they that are in the way.
 class CurvedMap
@@ -68,8 +63,17 @@ public:
 
   GridMapResult run()
   {
-    const bool hasCurves = !options_.curves.empty() && options_.method == MapMethod::ScaleAware;
+    const bool hasCurves = options_.method == MapMethod::ScaleAware &&
+      std::any_of(options_.curves.begin(), options_.curves.end(),
+        [](const CurveRequest& curve) { return curve.kind == CurveKind::Connection; });
     GridMapResult first = make({ {}, {}, true, hasCurves ? kStepsOfFirstTry : 0 });
+    if (!first.status.ok() && hasCycles(options_.curves))
+    {
+      countTry(Try::BentCycles);
+      straightCycles_ = false;
+      first = make({ {}, {}, true, hasCurves ? kStepsOfFirstTry : 0 });
+      countTryLed(Try::BentCycles, first.status.ok() ? 1 : 0);
+    }
     const bool firstHolds = holdsIrregular_;
     if (!hasCurves || (isWhole(first) && countUnfollowed(first) == 0))
     {
@@ -137,9 +141,10 @@ public:
 private:
   using Ways = std::vector<std::optional<Isoline>>;
 
-  GridMapResult make(const CurveTry& howto)
+  GridMapResult make(CurveTry howto)
   {
     const WorkScope work;
+    howto.straightCycles = straightCycles_;
     TriedMap tried = mapInOneTry(mesh_, options_, howto);
     GridMapResult map = std::move(tried.map);
     map.work = work.done();
@@ -162,7 +167,19 @@ private:
     return map.status.ok() && (!other.status.ok() || countMissed(map) < countMissed(other));
   }
 
-  static bool isWhole(const GridMapResult& map) { return map.status.ok() && countUnmet(map) == 0; }
+  /// Of the connections; cycles are features of the mesh.
+  std::size_t countUnmet(const GridMapResult& map) const
+  {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < map.curves.size(); ++i)
+    {
+      const bool connects = options_.curves[i].kind == CurveKind::Connection;
+      count += connects && !map.curves[i].met ? 1 : 0;
+    }
+    return count;
+  }
+
+  bool isWhole(const GridMapResult& map) const { return map.status.ok() && countUnmet(map) == 0; }
 
   /// With what all tries have taken.
   GridMapResult finish(GridMapResult map) const
@@ -294,6 +311,7 @@ private:
   const GridMapOptions& options_;
   int maximumSteps_ = 0;        ///< of the seamless map of a try
   bool holdsIrregular_ = false; ///< of the last one that was made
+  bool straightCycles_ = true;
   MapWork taken_;
 };
 

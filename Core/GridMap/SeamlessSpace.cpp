@@ -132,15 +132,9 @@ private:
         rotation += graph_.rotation[leftwards];
       }
     }
-    if (!line.closed || (rotation & 3) != 0)
-    {
-      row.push_back(turnedTerm(2 * graph_.wedge[line.end], rotation, coordinate, 1));
-      row.push_back({ 2 * graph_.wedge[line.start] + coordinate, -1 });
-    }
-    if (!row.empty())
-    {
-      rows_.push_back(std::move(row));
-    }
+    row.push_back(turnedTerm(2 * graph_.wedge[line.end], rotation, coordinate, 1));
+    row.push_back({ 2 * graph_.wedge[line.start] + coordinate, -1 });
+    rows_.push_back(std::move(row));
   }
 
   /// Both parts are equally long.

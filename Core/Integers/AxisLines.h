@@ -33,8 +33,4 @@ LineStop followThrough(const UvMesh& map, UvDirection direction, std::int64_t ma
 /// Makes the line an edge, or several, through the vertices on its way. False where it meets something else.
 bool lockParts(UvMesh& map, UvEditor& editor, UvDirection direction, std::int64_t length);
 
-/// Whether one of the grid lines that pass the faces of the way closes. One beside an irregular vertex does where the
-/// lines next to it do, on one side.
-bool hasClosedGridLine(const UvMesh& map, const Isoline& line, std::int64_t maximumLength);
-
 } // namespace quadrille

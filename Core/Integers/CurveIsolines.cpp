@@ -21,16 +21,11 @@ namespace
 {
 
 constexpr float kConnectionWeight = 0.5F;
-/// Far above what users can ask for: which way the field turns along a cycle decides whether it can close, so nothing
-/// may turn it, and quarter turns do not move across it.
-constexpr float kCycleWeight = 100.0F;
 /// In edges of quads: how far from an end of a connection the vertex may lie that it joins.
 constexpr double kReachOfIrregular = 3;
 constexpr double kReachOfCurve = 1.5;
 /// In edges of quads: how far from a curve vertices had better be regular.
 constexpr double kClearance = 1.5;
-/// A closed way along a field that does not go with it comes out short: the field turns, or runs across.
-constexpr double kLeastAlong = 0.5;
 /// A line is the one asked for where it is at most so many times longer than the way along the curve.
 constexpr std::int64_t kMostDetour = 2;
 
@@ -142,40 +137,28 @@ Vector2 inField(const Mesh& mesh, const CrossField& field, Index f, const Vector
   return { c * p.dot(x) + s * p.dot(y), c * p.dot(y) - s * p.dot(x) };
 }
 
-/// A way through the faces as the field sees it.
-struct WayInField
+/// A way through the faces, by the middles of the edges that it crosses, as the field sees it: from end to end, in the
+/// frame of the first face.
+Vector2 wayInField(const Mesh& mesh, const CrossField& field, const FacePath& path,
+  const Vector3& begin, const Vector3& end)
 {
-  Vector2 vector = Vector2::Zero(); ///< from end to end, in the frame of the first face
-  int rotation = 0;                 ///< from that frame to the frame of the last face
-  double length = 0;
-};
-
-/// Through the middles of the edges that are crossed. begin, end: null for a closed way.
-WayInField wayInField(const Mesh& mesh, const CrossField& field, const FacePath& path,
-  const Vector3* begin, const Vector3* end)
-{
-  const auto middle = [&](Index h)
-  { return Vector3((mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2); };
-  WayInField way;
+  Vector2 vector = Vector2::Zero();
+  int rotation = 0; // from that frame to the frame of the face
   Index f = path.first;
-  Vector3 at = begin != nullptr ? *begin : middle(path.crossed.back());
+  Vector3 at = begin;
   const auto go = [&](const Vector3& to)
   {
-    way.vector += turned(inField(mesh, field, f, to - at), -way.rotation);
-    way.length += (to - at).norm();
+    vector += turned(inField(mesh, field, f, to - at), -rotation);
     at = to;
   };
   for (const Index h : path.crossed)
   {
-    go(middle(h));
-    way.rotation = (way.rotation + field.matching[h]) & 3;
+    go((mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2);
+    rotation = (rotation + field.matching[h]) & 3;
     f = Mesh::face(mesh.twin[h]);
   }
-  if (end != nullptr)
-  {
-    go(*end);
-  }
-  return way;
+  go(end);
+  return vector;
 }
 
 int axisOf(const Vector2& vector)
@@ -189,90 +172,6 @@ void leaveOut(RequestedLine& line, const std::string& why)
   line.outcome.why = why;
 }
 
-RequestedLine connectionOf(
-  const Mesh& mesh, const CrossField& field, const CurveRequest& curve, double edgeLength)
-{
-  RequestedLine result;
-  const CurveEnd a = endNear(mesh, field, curve.points.front(), edgeLength);
-  const CurveEnd b = endNear(mesh, field, curve.points.back(), edgeLength);
-  for (const auto& [end, place] :
-    { std::pair(a, curve.points.front()), std::pair(b, curve.points.back()) })
-  {
-    if (end.vertex == kInvalidIndex)
-    {
-      leaveOut(result,
-        "no irregular vertex, feature or boundary lies within " +
-          std::to_string(static_cast<int>(kReachOfIrregular)) + " quads of " + placeText(place) +
-          ": draw to one, or ask for a valence there");
-      return result;
-    }
-  }
-  result.outcome.from = a.vertex;
-  result.outcome.to = b.vertex;
-  result.outcome.start = mesh.position[a.vertex];
-  result.outcome.end = mesh.position[b.vertex];
-  if (a.vertex == b.vertex)
-  {
-    leaveOut(result,
-      "both ends are nearest to the same vertex, at " + placeText(result.outcome.start) +
-        ": draw between two");
-    return result;
-  }
-  if (!a.isPoint && !b.isPoint)
-  {
-    leaveOut(result, "neither end is near an irregular vertex: draw from one");
-    return result;
-  }
-  const std::optional<FacePath> path = pathAlong(mesh, curve, a.vertex, b.vertex);
-  if (!path)
-  {
-    leaveOut(result, "no way over the surface leads from one of its ends to the other");
-    return result;
-  }
-  const Vector3 begin = mesh.position[a.vertex], end = mesh.position[b.vertex];
-  const WayInField way = wayInField(mesh, field, *path, &begin, &end);
-  result.line.crossed = path->crossed;
-  result.line.start = cornerAt(mesh, path->first, a.vertex);
-  result.line.end = cornerAt(mesh, path->faces(mesh).back(), b.vertex);
-  result.line.axis = axisOf(way.vector);
-  result.hasLine = a.isPoint && b.isPoint;
-  result.endsOnCurve = !result.hasLine;
-  return result;
-}
-
-RequestedLine cycleOf(const Mesh& mesh, const CrossField& field, const CurveRequest& curve)
-{
-  RequestedLine result;
-  result.outcome.start = result.outcome.end = curve.points.front();
-  const std::optional<FacePath> path = closedPathAlong(mesh, curve);
-  if (!path)
-  {
-    leaveOut(result, "it closes on nothing: draw it round something");
-    return result;
-  }
-  const WayInField way = wayInField(mesh, field, *path, nullptr, nullptr);
-  if (way.rotation != 0)
-  {
-    leaveOut(result,
-      "the irregular vertices on one side of it turn the quads by " +
-        std::to_string(90 * std::min(way.rotation, 4 - way.rotation)) +
-        " degrees: 4 - valence of them has to sum up to 4; move one across it");
-    return result;
-  }
-  result.line.crossed = path->crossed;
-  result.line.start = result.line.end = 3 * path->first;
-  result.line.axis = axisOf(way.vector);
-  result.line.closed = true;
-  if (way.vector.norm() < kLeastAlong * way.length)
-  {
-    leaveOut(result,
-      "the quads' edges do not run along it: guide them, or move irregular vertices away from it");
-    return result;
-  }
-  result.hasLine = true;
-  return result;
-}
-
 /// The way's places, in the middle of the edges that it crosses.
 std::vector<Vector3> placesOf(const Mesh& mesh, const Isoline& line)
 {
@@ -282,38 +181,6 @@ std::vector<Vector3> placesOf(const Mesh& mesh, const Isoline& line)
     places.emplace_back((mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2);
   }
   return places;
-}
-
-/// A direction from one of the vertices that comes back to it after the length, from the one nearest to the way.
-std::optional<UvDirection> closedLine(const UvMesh& map, const std::vector<std::uint8_t>& integer,
-  const Mesh& mesh, const Isoline& line, std::int64_t length)
-{
-  std::optional<UvDirection> best;
-  double least = kInfinity;
-  const std::vector<Vector3> way = placesOf(mesh, line);
-  for (Index v = 0; v < integer.size(); ++v)
-  {
-    double distance = kInfinity;
-    for (const Vector3& p : way)
-    {
-      distance = std::min(distance, (mesh.position[v] - p).norm());
-    }
-    if (integer[v] == 0 || map.outgoing[v] == kInvalidIndex || distance >= least)
-    {
-      continue;
-    }
-    for (const UvDirection& direction : axisDirections(map, v))
-    {
-      const LineStop end = followThrough(map, direction, length, integer);
-      if (end.vertex == v && end.length == length)
-      {
-        best = direction;
-        least = distance;
-        break;
-      }
-    }
-  }
-  return best;
 }
 
 std::optional<UvDirection> lineBetween(const UvMesh& map, const std::vector<std::uint8_t>& integer,
@@ -364,10 +231,8 @@ CurvesInField followedCurves(const Mesh& mesh, const CrossField& field,
   result.regular.assign(mesh.vertexCount(), 0);
   for (const auto& [curve, way] : curves)
   {
-    const bool cycle = curve.kind == CurveKind::Cycle;
-    const CurveVertices ends = cycle ? CurveVertices{} : verticesOf(mesh, field, curve, edgeLength);
+    const CurveVertices ends = verticesOf(mesh, field, curve, edgeLength);
     const std::optional<FacePath> path = way ? FacePath{ Mesh::face(way->start), way->crossed }
-      : cycle                                ? closedPathAlong(mesh, curve)
                                              : pathAlong(mesh, curve, ends.from, ends.to);
     if (path)
     {
@@ -375,8 +240,8 @@ CurvesInField followedCurves(const Mesh& mesh, const CrossField& field,
     }
     if (path && !crossesFeature(mesh, *path))
     {
-      result.lines.push_back({ path->crossed, directionsAlong(mesh, *path, cycle) });
-      guideAlong(mesh, *path, cycle, cycle ? kCycleWeight : kConnectionWeight, guides);
+      result.lines.push_back({ path->crossed, directionsAlong(mesh, *path) });
+      guideAlong(mesh, *path, kConnectionWeight, guides);
     }
   }
   result.guides = std::move(guides);
@@ -400,10 +265,6 @@ std::vector<int> valencesWithEnds(const Mesh& mesh, const CrossField& field,
   const std::vector<std::uint8_t> onCurve = constrainedVertices(mesh);
   for (const auto& [curve, way] : curves)
   {
-    if (curve.kind != CurveKind::Connection)
-    {
-      continue;
-    }
     for (const Vector3& place : { curve.points.front(), curve.points.back() })
     {
       const CurveEnd end = endNear(mesh, field, place, edgeLength);
@@ -421,8 +282,51 @@ std::vector<int> valencesWithEnds(const Mesh& mesh, const CrossField& field,
 RequestedLine lineOf(
   const Mesh& mesh, const CrossField& field, const CurveRequest& curve, double edgeLength)
 {
-  return curve.kind == CurveKind::Cycle ? cycleOf(mesh, field, curve)
-                                        : connectionOf(mesh, field, curve, edgeLength);
+  RequestedLine result;
+  const CurveEnd a = endNear(mesh, field, curve.points.front(), edgeLength);
+  const CurveEnd b = endNear(mesh, field, curve.points.back(), edgeLength);
+  for (const auto& [end, place] :
+    { std::pair(a, curve.points.front()), std::pair(b, curve.points.back()) })
+  {
+    if (end.vertex == kInvalidIndex)
+    {
+      leaveOut(result,
+        "no irregular vertex, feature or boundary lies within " +
+          std::to_string(static_cast<int>(kReachOfIrregular)) + " quads of " + placeText(place) +
+          ": draw to one, or ask for a valence there");
+      return result;
+    }
+  }
+  result.outcome.from = a.vertex;
+  result.outcome.to = b.vertex;
+  result.outcome.start = mesh.position[a.vertex];
+  result.outcome.end = mesh.position[b.vertex];
+  if (a.vertex == b.vertex)
+  {
+    leaveOut(result,
+      "both ends are nearest to the same vertex, at " + placeText(result.outcome.start) +
+        ": draw between two");
+    return result;
+  }
+  if (!a.isPoint && !b.isPoint)
+  {
+    leaveOut(result, "neither end is near an irregular vertex: draw from one");
+    return result;
+  }
+  const std::optional<FacePath> path = pathAlong(mesh, curve, a.vertex, b.vertex);
+  if (!path)
+  {
+    leaveOut(result, "no way over the surface leads from one of its ends to the other");
+    return result;
+  }
+  const Vector3 begin = mesh.position[a.vertex], end = mesh.position[b.vertex];
+  result.line.crossed = path->crossed;
+  result.line.start = cornerAt(mesh, path->first, a.vertex);
+  result.line.end = cornerAt(mesh, path->faces(mesh).back(), b.vertex);
+  result.line.axis = axisOf(wayInField(mesh, field, *path, begin, end));
+  result.hasLine = a.isPoint && b.isPoint;
+  result.endsOnCurve = !result.hasLine;
+  return result;
 }
 
 std::optional<Isoline> straightWay(const Mesh& mesh, const CrossField& field,
@@ -443,7 +347,7 @@ std::optional<Isoline> straightWay(const Mesh& mesh, const CrossField& field,
     const Vector2 vector = toDouble(line.vector);
     const double tangent =
       vector.cwiseAbs().minCoeff() / std::max(vector.cwiseAbs().maxCoeff(), 1e-300);
-    Isoline way{ line.start, line.end, line.crossed, axisOf(vector), false };
+    Isoline way{ line.start, line.end, line.crossed, axisOf(vector) };
     double away = 0;
     for (const Vector3& p : placesOf(mesh, way))
     {
@@ -464,7 +368,7 @@ int axisAlong(const Mesh& mesh, const CrossField& field, const Isoline& way)
   const FacePath path{ Mesh::face(way.start), way.crossed };
   const Vector3 begin = mesh.position[mesh.origin[way.start]];
   const Vector3 end = mesh.position[mesh.origin[way.end]];
-  return axisOf(wayInField(mesh, field, path, &begin, &end).vector);
+  return axisOf(wayInField(mesh, field, path, begin, end));
 }
 
 FixedVec2 developedVector(const UvMesh& map, const Isoline& line)
@@ -486,9 +390,8 @@ bool lockLine(UvMesh& map, UvEditor& editor, const std::vector<std::uint8_t>& in
   {
     return false;
   }
-  const std::optional<UvDirection> start = line.closed
-    ? closedLine(map, integer, mesh, line, length)
-    : lineBetween(map, integer, mesh.origin[line.start], mesh.origin[line.end], length);
+  const std::optional<UvDirection> start =
+    lineBetween(map, integer, mesh.origin[line.start], mesh.origin[line.end], length);
   return start && lockParts(map, editor, *start, length);
 }
 
@@ -500,10 +403,6 @@ bool hasGridLine(const Mesh& mesh, const CrossField& field, const std::vector<Fi
   const std::int64_t length =
     std::abs(lengthAlong(developedVector(map, wanted.line), wanted.line.axis));
   const std::int64_t most = kMostDetour * length + kOne;
-  if (wanted.line.closed)
-  {
-    return hasClosedGridLine(map, wanted.line, most);
-  }
   if (wanted.endsOnCurve)
   {
     return reachesCurve(mesh, map, integer, wanted.outcome, most, kReachOfIrregular * edgeLength);

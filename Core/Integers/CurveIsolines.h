@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Connections and cycles that a user asks for, as lines that the map of a field has to have [Ebke et al. 2016,
+/// Connections that a user asks for, as lines that the map of a field has to have [Ebke et al. 2016,
 /// Section 4]. Where we differ: the line is one equation of the seamless map, and becomes an edge of the triangulation
 /// that integers are found on, so that neither rounding nor re-embedding can lose it.
 #pragma once
@@ -24,7 +24,7 @@ struct CurveOutcome
   std::string why;            ///< where it is not met: the reason and what helps
   Index from = kInvalidIndex; ///< the vertices that a connection joins, of the mesh
   Index to = kInvalidIndex;
-  Vector3 start = Vector3::Zero(); ///< their places; of a cycle one of its points
+  Vector3 start = Vector3::Zero(); ///< their places; of a cycle its first point
   Vector3 end = Vector3::Zero();
 };
 
@@ -87,13 +87,11 @@ int axisAlong(const Mesh& mesh, const CrossField& field, const Isoline& way);
 FixedVec2 developedVector(const UvMesh& map, const Isoline& line);
 
 /// Makes the line an edge, or several. `map` is that of `mesh` with vertices removed, not those of `integer` (#V).
-/// Of a closed line the parallel that runs through one of them nearest to its way is taken. False where a vertex or a
-/// curve stands in its way, or no parallel meets a vertex. developed: developedVector() before.
+/// False where a vertex or a curve stands in its way. developed: developedVector() before.
 bool lockLine(UvMesh& map, UvEditor& editor, const std::vector<std::uint8_t>& integer,
   const Mesh& mesh, const Isoline& line, FixedVec2 developed);
 
-/// Whether an integer-grid map has the line: from vertex to vertex, to a curve near the place asked for, or, of a
-/// closed one, a closed grid line in the faces of its way.
+/// Whether an integer-grid map has the line: from vertex to vertex, or to a curve near the place asked for.
 bool hasGridLine(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv,
   const RequestedLine& wanted, double edgeLength);
 

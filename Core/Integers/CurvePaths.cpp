@@ -59,7 +59,7 @@ public:
   }
 
   /// Faces along the inside of the curve.
-  std::vector<Index> wayPoints(bool closed) const
+  std::vector<Index> wayPoints() const
   {
     std::vector<double> at{ 0 };
     for (std::size_t i = 1; i < samples_.size(); ++i)
@@ -67,11 +67,10 @@ public:
       at.push_back(at.back() + (samples_[i] - samples_[i - 1]).norm());
     }
     const double length = at.back();
-    const std::size_t parts =
-      std::clamp<std::size_t>(static_cast<std::size_t>(length / (kEdgesPerWayPoint * edge_)),
-        closed ? 4 : 1, kMostWayPoints);
+    const std::size_t parts = std::clamp<std::size_t>(
+      static_cast<std::size_t>(length / (kEdgesPerWayPoint * edge_)), 1, kMostWayPoints);
     std::vector<Index> faces;
-    for (std::size_t k = closed ? 0 : 1; k < parts; ++k)
+    for (std::size_t k = 1; k < parts; ++k)
     {
       const double wanted = length * static_cast<double>(k) / static_cast<double>(parts);
       const std::size_t i = std::min<std::size_t>(
@@ -166,7 +165,7 @@ private:
 };
 
 /// Ways there and straight back say nothing.
-void removeSpurs(const Mesh& mesh, bool closed, FacePath& path)
+void removeSpurs(const Mesh& mesh, FacePath& path)
 {
   std::vector<Index> kept;
   for (const Index h : path.crossed)
@@ -180,13 +179,7 @@ void removeSpurs(const Mesh& mesh, bool closed, FacePath& path)
       kept.push_back(h);
     }
   }
-  std::size_t begin = 0;
-  while (closed && kept.size() >= begin + 2 && kept.back() == mesh.twin[kept[begin]])
-  {
-    kept.pop_back();
-    ++begin;
-  }
-  path.crossed.assign(kept.begin() + static_cast<std::ptrdiff_t>(begin), kept.end());
+  path.crossed = std::move(kept);
   if (!path.crossed.empty())
   {
     path.first = Mesh::face(path.crossed.front());
@@ -278,26 +271,24 @@ private:
 };
 
 /// From where the path is a few faces before to where it is a few behind, in the plane of its face i, which is f.
-Vector2 chordAt(const Mesh& mesh, const FacePath& path, bool closed, Index f, std::size_t i)
+Vector2 chordAt(const Mesh& mesh, const FacePath& path, Index f, std::size_t i)
 {
   constexpr std::size_t kFacesOfChord = 4;
   const std::size_t count = path.crossed.size();
-  const auto reach = [&](std::size_t toEnd)
-  { return closed ? std::min(kFacesOfChord, count) : std::min(kFacesOfChord, toEnd); };
   Vector2 ahead = Vector2::Zero(), behind = Vector2::Zero();
   FaceStrip forward(mesh, f);
-  const std::size_t forwards = reach(count - std::min(i, count));
+  const std::size_t forwards = std::min(kFacesOfChord, count - std::min(i, count));
   for (std::size_t k = 0; k < forwards; ++k)
   {
-    const Index h = path.crossed[(i + k) % count];
+    const Index h = path.crossed[i + k];
     ahead = forward.middle(h);
     forward.cross(h);
   }
   FaceStrip backward(mesh, f);
-  const std::size_t backwards = reach(i);
+  const std::size_t backwards = std::min(kFacesOfChord, i);
   for (std::size_t k = 0; k < backwards; ++k)
   {
-    const Index h = mesh.twin[path.crossed[(i + count - 1 - k) % count]];
+    const Index h = mesh.twin[path.crossed[i - 1 - k]];
     behind = backward.middle(h);
     backward.cross(h);
   }
@@ -328,12 +319,10 @@ std::vector<Index> FacePath::faces(const Mesh& mesh) const
 std::vector<Vector3> sampleCurve(const CurveRequest& curve, double spacing)
 {
   std::vector<Vector3> samples;
-  const std::size_t count = curve.points.size();
-  const std::size_t segments = curve.kind == CurveKind::Cycle ? count : count - 1;
-  for (std::size_t i = 0; i < segments; ++i)
+  for (std::size_t i = 0; i + 1 < curve.points.size(); ++i)
   {
     const Vector3& p = curve.points[i];
-    const Vector3 d = curve.points[(i + 1) % count] - p;
+    const Vector3 d = curve.points[i + 1] - p;
     const auto parts =
       static_cast<std::size_t>(std::clamp(std::ceil(d.norm() / spacing), 1.0, 10000.0));
     for (std::size_t k = 0; k < parts; ++k)
@@ -341,7 +330,7 @@ std::vector<Vector3> sampleCurve(const CurveRequest& curve, double spacing)
       samples.push_back(p + d * (static_cast<double>(k) / static_cast<double>(parts)));
     }
   }
-  samples.push_back(curve.points[segments % count]);
+  samples.push_back(curve.points.back());
   return samples;
 }
 
@@ -360,7 +349,7 @@ std::optional<FacePath> pathAlong(const Mesh& mesh, const CurveRequest& curve, I
   CurveWays ways(mesh, curve);
   FacePath path;
   std::vector<Index> from = facesRound(mesh, a);
-  for (const Index f : ways.wayPoints(false))
+  for (const Index f : ways.wayPoints())
   {
     if (!ways.find(from, { f }, path))
     {
@@ -372,35 +361,18 @@ std::optional<FacePath> pathAlong(const Mesh& mesh, const CurveRequest& curve, I
   {
     return std::nullopt;
   }
-  removeSpurs(mesh, false, path);
+  removeSpurs(mesh, path);
   trimEnds(mesh, a, b, path);
   return path;
 }
 
-std::optional<FacePath> closedPathAlong(const Mesh& mesh, const CurveRequest& curve)
-{
-  CurveWays ways(mesh, curve);
-  std::vector<Index> points = ways.wayPoints(true);
-  points.push_back(points.front());
-  FacePath path;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i)
-  {
-    if (!ways.find({ points[i] }, { points[i + 1] }, path))
-    {
-      return std::nullopt;
-    }
-  }
-  removeSpurs(mesh, true, path);
-  return path.crossed.empty() ? std::nullopt : std::optional<FacePath>(std::move(path));
-}
-
-std::vector<Vector3> directionsAlong(const Mesh& mesh, const FacePath& path, bool closed)
+std::vector<Vector3> directionsAlong(const Mesh& mesh, const FacePath& path)
 {
   const std::vector<Index> faces = path.faces(mesh);
   std::vector<Vector3> directions(faces.size(), Vector3::Zero());
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
-    const Vector2 along = chordAt(mesh, path, closed, faces[i], i);
+    const Vector2 along = chordAt(mesh, path, faces[i], i);
     const Index h = 3 * faces[i];
     if (along.squaredNorm() > 0)
     {
@@ -412,11 +384,10 @@ std::vector<Vector3> directionsAlong(const Mesh& mesh, const FacePath& path, boo
   return directions;
 }
 
-void guideAlong(
-  const Mesh& mesh, const FacePath& path, bool closed, float weight, std::vector<Guide>& guides)
+void guideAlong(const Mesh& mesh, const FacePath& path, float weight, std::vector<Guide>& guides)
 {
   const std::vector<Index> faces = path.faces(mesh);
-  const std::vector<Vector3> directions = directionsAlong(mesh, path, closed);
+  const std::vector<Vector3> directions = directionsAlong(mesh, path);
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
     if (guides[faces[i]].isFree() && !directions[i].isZero(0))

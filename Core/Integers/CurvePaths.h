@@ -17,14 +17,13 @@ namespace quadrille
 struct FacePath
 {
   Index first = kInvalidIndex; ///< the face that it begins in
-  std::vector<Index>
-    crossed; ///< half-edges through which it leaves its faces; a closed one comes back to `first`
+  std::vector<Index> crossed;  ///< half-edges through which it leaves its faces
 
-  /// The faces in order; of a closed path the first one stands at the end again.
+  /// The faces in order.
   std::vector<Index> faces(const Mesh& mesh) const;
 };
 
-/// The curve's own points and more between them, at most `spacing` apart; a cycle's last point is its first.
+/// The curve's own points and more between them, at most `spacing` apart.
 std::vector<Vector3> sampleCurve(const CurveRequest& curve, double spacing);
 
 /// From p to the nearest place on a curve that was sampled; infinite where that is a single point.
@@ -32,14 +31,11 @@ double distanceToCurve(const std::vector<Vector3>& samples, const Vector3& p);
 
 /// The way along the curve from the star of vertex a to that of b. Empty where nothing joins them.
 std::optional<FacePath> pathAlong(const Mesh& mesh, const CurveRequest& curve, Index a, Index b);
-/// The closed way along a cycle. Empty where it closes on nothing.
-std::optional<FacePath> closedPathAlong(const Mesh& mesh, const CurveRequest& curve);
 
 /// Its direction in each of its faces, over some faces before and behind; zero where it has none.
-std::vector<Vector3> directionsAlong(const Mesh& mesh, const FacePath& path, bool closed);
+std::vector<Vector3> directionsAlong(const Mesh& mesh, const FacePath& path);
 
 /// Gives the faces of the path that have no guide yet its direction. guides: #F.
-void guideAlong(
-  const Mesh& mesh, const FacePath& path, bool closed, float weight, std::vector<Guide>& guides);
+void guideAlong(const Mesh& mesh, const FacePath& path, float weight, std::vector<Guide>& guides);
 
 } // namespace quadrille

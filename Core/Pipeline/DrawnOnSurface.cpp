@@ -6,6 +6,7 @@
 #include "Features/FeatureFilter.h"
 #include "Mesh/ContentHash.h"
 #include "Prepare/Refine.h"
+#include "Requests/CycleSectors.h"
 #include "Requests/InsertPlaces.h"
 
 #include <algorithm>
@@ -105,11 +106,25 @@ void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, do
   }
 }
 
-void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& features,
+void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& drawn,
   double edgeLength, int threads, std::vector<std::string>& notices)
 {
+  const std::vector<FeatureRequest> features = featuresWithCycles(drawn, surface.curves);
+  if (features.empty())
+  {
+    return;
+  }
   const Index before = surface.mesh.vertexCount();
-  insertFeatures(surface, features, { edgeLength, threads }, notices);
+  std::vector<std::vector<Vector3>> paths =
+    insertFeatures(surface, features, { edgeLength, threads }, notices);
+  std::size_t next = drawn.size();
+  for (CurveRequest& curve : surface.curves)
+  {
+    if (curve.kind == CurveKind::Cycle)
+    {
+      curve.points = std::move(paths[next++]);
+    }
+  }
   noteAdded(surface, before, threads, notices);
 }
 

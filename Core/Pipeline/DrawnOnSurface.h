@@ -24,8 +24,8 @@ void drawSizes(PreparedSurface& surface, const SurfaceInput& input, double edgeL
 void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, double edgeLength,
   std::vector<std::string>& notices);
 
-/// Features become those of the surface.
-void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& features,
+/// Features become those of the surface, and so do its cycles, which get their course on it.
+void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& drawn,
   double edgeLength, int threads, std::vector<std::string>& notices);
 
 /// Valences at places, on the triangles as they are to stay. Whether vertices were added to these.

@@ -19,6 +19,7 @@
 #include "Prepare/Prepare.h"
 #include "Prepare/Refine.h"
 #include "Prepare/RepairText.h"
+#include "Requests/CycleSectors.h"
 #include "Requests/Guides.h"
 #include "Requests/HeldVertices.h"
 #include "Sizes/CurvatureGuides.h"
@@ -282,17 +283,15 @@ SizedSurface finished(
 void addFeatures(const DrawnRequests& drawn, const RemeshOptions& options, PreparedSurface& surface,
   SizedSurface& sized)
 {
-  if (drawn.features.empty() && drawn.cleared.empty())
+  const bool draws = !drawn.features.empty() || hasCycles(surface.curves);
+  if (!draws && drawn.cleared.empty())
   {
     return;
   }
   const double start = secondsNow();
   const std::size_t before = surface.mesh.faceCount();
   clearDrawn(surface, drawn.cleared, sized.edgeLength, sized.notices);
-  if (!drawn.features.empty())
-  {
-    drawFeatures(surface, drawn.features, sized.edgeLength, options.threads, sized.notices);
-  }
+  drawFeatures(surface, drawn.features, sized.edgeLength, options.threads, sized.notices);
   filterFeatures(surface, options, sized);
   splitEnclosedFaces(surface);
   splitChords(surface);
@@ -473,10 +472,7 @@ PreparedSurface prepareDrawn(SurfaceInput& input, RemeshOptions& options,
   tell({ settleQuads(surface, areaOverSizes(surface), nullptr, 0, options) }, sized.notices);
   const double edgeLength =
     targetEdgeLength(options, areaOverSizes(surface), surface.boundingBoxDiagonal);
-  if (!input.drawn.features.empty())
-  {
-    drawFeatures(surface, input.drawn.features, edgeLength, options.threads, sized.notices);
-  }
+  drawFeatures(surface, input.drawn.features, edgeLength, options.threads, sized.notices);
   if (!input.drawn.sizes.empty())
   {
     addSizes(input, edgeLength, options, surface, sized);

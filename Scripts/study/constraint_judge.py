@@ -21,8 +21,11 @@ PLACE = 0.3
 OTHERS = 2
 #: Edge lengths of the quads there within which a connection ends where its line does, as the guide has it.
 ENDS = 1
-#: Mean edge lengths by which a chain and its course may differ, as the guide has it.
+#: Mean edge lengths by which the chain of a connection and its course may differ, as the guide has it; loops are looked
+#: for within as many.
 REACH = 6
+#: The same of a loop that is where it was drawn.
+LOOP = 0.5
 #: Closed chains longer than so many times the course go round more than once.
 LONGEST_LOOP = 1.9
 #: Degrees between edges along a feature line and its course.
@@ -578,7 +581,7 @@ def judge_connection(surface, quads, course):
 
 
 def judge_cycle(quads, course):
-    """A closed straight chain within REACH of the course, once round; the deviation is how far the two are apart."""
+    """A closed straight chain within LOOP of the course, once round; the deviation is how far the two are apart."""
     edge = quads.mean_edge
     inside = course.distance(quads.points) <= REACH * edge
     starts = numpy.flatnonzero(numpy.linalg.norm(quads.points - course.line[0], axis=1) <= REACH * edge)
@@ -586,7 +589,7 @@ def judge_cycle(quads, course):
     for chain in quads.loops(starts, inside):
         if length_of(quads.points[chain + chain[:1]]) <= LONGEST_LOOP * course.length:
             best = min(best, apart(quads, chain, course, closed=True))
-    return Verdict(best <= REACH, best)
+    return Verdict(best <= LOOP, best)
 
 
 def judge_feature(quads, course):

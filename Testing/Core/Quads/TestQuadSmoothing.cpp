@@ -65,32 +65,29 @@ double meanShape(const QuadMesh& mesh)
 // Bit by bit, so that its neighbours make room for it; never so far that a quad turns over.
 TEST(QuadSmoothing, APointGoesWhereItIsWanted)
 {
-  const GridMapCase c = crumpledPlane(12, 9, 1);
+  const GridMapCase c = squares("plane", gridPlane(6, 6), 1);
   const QuadMesh before = extractRaw(c);
-  std::size_t tried = 0;
-  for (Index p = 0; p < before.points.size(); ++p)
+  const auto inner = [&](Index p) { return before.onBoundary[p] == 0 && meshCorner(before, p); };
+  Index p = 0;
+  while (p < before.points.size() && !inner(p))
   {
-    const std::optional<Index> corner = meshCorner(before, p);
-    if (before.onBoundary[p] != 0 || !corner)
-    {
-      continue;
-    }
-    ++tried;
-    for (const double way : { 0.8, 4.0 }) // edge lengths
-    {
-      QuadMesh mesh = before;
-      const Vector3 place = before.points[p] + way * Vector3(0.6, 0.8, 0);
-      SmoothingOptions options;
-      options.threads = 1;
-      options.wanted = { { c.mesh.origin[*corner], place } };
-      smoothQuads(c.mesh, mesh, options);
-      EXPECT_GE(worstShape(mesh), std::min(0.3, worstShape(before)));
-      EXPECT_LT((mesh.points[p] - place).norm(), (before.points[p] - place).norm());
-      const Vector3 at = positionOf(c.mesh, { mesh.sourceFace[p], mesh.sourceWeights[p] });
-      EXPECT_LT((at - mesh.points[p]).norm(), 1e-12);
-    }
+    ++p;
   }
-  EXPECT_GT(tried, 0U);
+  ASSERT_LT(p, before.points.size());
+  for (const double way : { 0.9, 4.0 }) // edge lengths
+  {
+    QuadMesh mesh = before;
+    const Vector3 place = before.points[p] + way * Vector3(0.6, 0.8, 0);
+    SmoothingOptions options;
+    options.threads = 1;
+    options.wanted = { { c.mesh.origin[*meshCorner(before, p)], place } };
+    smoothQuads(c.mesh, mesh, options);
+    const double off = (mesh.points[p] - place).norm();
+    EXPECT_LT(off, way < 1 ? 1e-9 : 0.8 * way);
+    EXPECT_GE(worstShape(mesh), 0.3);
+    const Vector3 at = positionOf(c.mesh, { mesh.sourceFace[p], mesh.sourceWeights[p] });
+    EXPECT_LT((at - mesh.points[p]).norm(), 1e-12);
+  }
 }
 
 TEST(QuadSmoothing, RaisesShapesAndStaysOnTheSurface)
