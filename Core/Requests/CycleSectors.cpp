@@ -28,8 +28,8 @@ bool forFanOf(const Mesh& mesh, Index first, const Visitor& visit)
   return h == first;
 }
 
-/// Calls visit(half-edge, turns) for the sectors at the vertex that h, a flagged edge, leaves: those on each side of the
-/// cycle make two turns together, where so many have room.
+/// Calls visit(half-edge, turns) for the sectors at the vertex that h, a flagged edge, leaves: those on each side of
+/// the cycle make two turns together, where so many have room.
 template <typename Visitor>
 void forSectorsBeside(
   const Mesh& mesh, const std::vector<std::uint8_t>& edges, Index h, const Visitor& visit)

@@ -438,36 +438,26 @@ std::optional<ChangedPart> ledRound(const Mesh& mesh, std::size_t k, const MeshP
                                                      : std::nullopt;
 }
 
-/// The strip led round all corners where that makes the path shorter, but for those whose parts overlap. Whether it is
-/// shorter as a whole then: between needles parts may be that are not, up to rounding, once they are joined.
-bool leadRound(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to, StripPath& path)
+/// Changes parts of the strip, ascending and apart, if that makes the path shorter as a whole: between needles parts
+/// may be that are not, up to rounding, once they are joined.
+bool changeStrip(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to,
+  const std::vector<const ChangedPart*>& parts, StripPath& path)
 {
   std::vector<Index> strip;
   std::size_t taken = 0;
-  bool isShorter = false;
   const auto take = [&](std::size_t end)
   {
     strip.insert(strip.end(), path.strip.begin() + static_cast<std::ptrdiff_t>(taken),
       path.strip.begin() + static_cast<std::ptrdiff_t>(end));
     taken = end;
   };
-  for (std::size_t k = 1; k + 1 < path.corners.size(); ++k)
+  for (const ChangedPart* part : parts)
   {
-    pollNowAndThen(k);
-    const auto part = ledRound(mesh, k, from, to, path);
-    if (part && part->first >= taken)
-    {
-      isShorter = true;
-      take(part->first);
-      strip.insert(strip.end(), part->strip.begin(), part->strip.end());
-      taken = part->end;
-    }
+    take(part->first);
+    strip.insert(strip.end(), part->strip.begin(), part->strip.end());
+    taken = part->end;
   }
   take(path.strip.size());
-  if (!isShorter)
-  {
-    return false;
-  }
   StripPath other(mesh, std::move(strip), from, to);
   if (!(lengthOf(other.corners) < kShorter * lengthOf(path.corners)))
   {
@@ -475,6 +465,33 @@ bool leadRound(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to, Str
   }
   path = std::move(other);
   return true;
+}
+
+/// The strip led round all corners where that makes the path shorter, but for those whose parts overlap; where these
+/// undo each other, as those that meet at a vertex do, round one of them. Whether it has become shorter.
+bool leadRound(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to, StripPath& path)
+{
+  std::vector<ChangedPart> parts;
+  for (std::size_t k = 1; k + 1 < path.corners.size(); ++k)
+  {
+    pollNowAndThen(k);
+    if (auto part = ledRound(mesh, k, from, to, path))
+    {
+      parts.push_back(std::move(*part));
+    }
+  }
+  std::vector<const ChangedPart*> apart;
+  for (const ChangedPart& part : parts)
+  {
+    if (apart.empty() || part.first >= apart.back()->end)
+    {
+      apart.push_back(&part);
+    }
+  }
+  return !parts.empty() &&
+    (changeStrip(mesh, from, to, apart, path) ||
+      std::any_of(parts.begin(), parts.end(),
+        [&](const ChangedPart& part) { return changeStrip(mesh, from, to, { &part }, path); }));
 }
 
 bool liesOn(const Mesh& mesh, Index h, const Vector3& p)

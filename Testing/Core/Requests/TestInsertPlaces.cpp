@@ -6,6 +6,7 @@
 #include "Mesh/Sizing.h"
 #include "MeshInput.h"
 #include "Prepare/Prepare.h"
+#include "Prepare/Refine.h"
 #include "Requests/MeshPaths.h"
 #include "Requests/StrokeGuides.h"
 #include "Requests/VerticesForSizes.h"
@@ -13,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -72,6 +74,27 @@ Vector3 onSphere(std::mt19937& random)
 {
   std::normal_distribution<double> normal;
   return Vector3(normal(random), normal(random), normal(random)).normalized();
+}
+
+/// Through vertices, and between places on edges: what is led round two of them may be longer than round one.
+TEST(MeshPaths, AreStraightThroughVertices)
+{
+  const std::array<Vector3, 4> middles{ Vector3(0.5, 0.5, 1), { 1, 0.5, 0.5 }, { 0.5, 0.5, 0 },
+    { 0, 0.5, 0.5 } };
+  for (const double longest : { 0.2, 0.1, 0.05 })
+  {
+    PreparedSurface surface = prepared(unitCube(1));
+    refineSurface(surface, longest, {});
+    for (std::size_t i = 0; i < middles.size(); ++i)
+    {
+      const std::vector<Vector3> path =
+        courseOnMesh(surface.mesh, { middles[i], middles[(i + 1) % middles.size()] }).points;
+      for (const Vector3& p : path)
+      {
+        EXPECT_NEAR(p.y(), 0.5, 1e-12) << longest << ' ' << i;
+      }
+    }
+  }
 }
 
 TEST(MeshPlaces, AreTheNearestOnes)
