@@ -320,6 +320,13 @@ Status simplify(Settling& work)
       return status;
     }
     cutAll(work, limits);
+    if (!work.takesAll && !judgeHandles(sized, true, work.options.threads, work.store).ok())
+    {
+      // What is refused with them can be done without.
+      limits = detailLimits(sized.edgeLength, work.options.smallestDetail, true, work.isRest);
+      fill(work, limits.boundaryLoops);
+      cutAll(work, limits);
+    }
     if (work.isOwn)
     {
       takeRequests(*sized.surface, asked, work);

@@ -447,7 +447,9 @@ TEST(StageFilters, ChainMakesCycles)
   ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
     << chain.hierarchy->GetOutcomeText() << chain.map->GetOutcomeText()
     << chain.upmap->GetOutcomeText() << chain.extraction->GetOutcomeText();
-  EXPECT_STREQ(chain.hierarchy->GetNoticesText(), "");
+  const std::string notices = chain.hierarchy->GetNoticesText();
+  EXPECT_NE(notices.find("were added to the triangles where constraints lie"), std::string::npos)
+    << notices;
   EXPECT_STREQ(chain.map->GetNoticesText(), "");
 
   const auto oneClick = vtkSmartPointer<vtkQuadRemesh>::New();
