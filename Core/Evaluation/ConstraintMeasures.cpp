@@ -449,17 +449,27 @@ ConstraintMeasure ConstraintMeasures::line(
 {
   ConstraintMeasure word =
     ConstraintMeasure::unknown(constraint.path.front(), "edge lengths", kNoQuads);
+  const std::string why =
+    constraint.curve < outcomes.size() ? outcomes[constraint.curve].why : std::string();
   if (mesh_.quads.empty())
   {
-    if (constraint.curve < outcomes.size() && !outcomes[constraint.curve].why.empty())
-    {
-      word.reason = outcomes[constraint.curve].why;
-    }
+    word.reason = why.empty() ? word.reason : why;
     return word;
   }
   const std::optional<LineInQuads> found = lineInQuads(constraint);
   const bool isCycle = constraint.kind == ConstraintKind::Cycle;
-  if (isCycle && !(found && found->distance <= kMetCycle))
+  word.isMet = found && found->isMet() && !(isCycle && found->distance > kMetCycle);
+  if (word.isMet)
+  {
+    word.deviation = found->distance;
+    word.place = found->place;
+    word.reason.clear();
+    word.remark = found->distance > kToldLine ? "the chain of edges is up to " +
+        shortText(found->distance) + " edge lengths away from the line"
+                                              : "";
+    return word;
+  }
+  if (isCycle)
   {
     ConstraintMeasure edges = curve(constraint.path);
     if (edges.isMet)
@@ -470,37 +480,31 @@ ConstraintMeasure ConstraintMeasures::line(
       return edges;
     }
   }
-  if (found)
+  if (!why.empty())
+  {
+    word.reason = why; // a chain that is there without it tells nothing
+  }
+  else if (found && isCycle)
   {
     word.deviation = found->distance;
-    word.place = found->isMet() ? found->place : found->end;
-    word.isMet = found->isMet();
-    word.reason = word.isMet ? ""
-                             : "the chain of edges ends at " + placeText(found->end) + ", " +
-        shortText(found->ends) + " edge lengths from the end of the line, at most " +
-        shortText(kMetEnds) + " count as met: end the line there";
-    const std::string away = "the chain of edges is up to " + shortText(found->distance) +
-      " edge lengths away from the line";
-    if (word.isMet && isCycle && found->distance > kMetCycle)
-    {
-      word.isMet = false;
-      word.reason = away + ", at most " + shortText(kMetCycle) + " count as met";
-    }
-    else if (word.isMet && found->distance > kToldLine)
-    {
-      word.remark = away;
-    }
+    word.place = found->place;
+    word.reason = "the chain of edges is up to " + shortText(found->distance) +
+      " edge lengths away from the line, at most " + shortText(kMetCycle) + " count as met";
   }
-  else if (constraint.curve >= outcomes.size())
+  else if (found)
   {
-    word.reason = "the method has no connections and cycles: choose another one";
+    word.deviation = found->distance;
+    word.place = found->end;
+    word.reason = "the chain of edges ends at " + placeText(found->end) + ", " +
+      shortText(found->ends) + " edge lengths from an end of the line, at most " +
+      shortText(kMetEnds) + " count as met: end the line there";
   }
   else
   {
-    const std::string& why = outcomes[constraint.curve].why;
-    word.reason = why.empty() ? "the quads have no straight chain of edges within " +
-        shortText(kMetLine) + " edge lengths of the line"
-                              : why;
+    word.reason = constraint.curve >= outcomes.size()
+      ? "the method has no connections and cycles: choose another one"
+      : "the quads have no straight chain of edges within " + shortText(kMetLine) +
+        " edge lengths of the line";
   }
   return word;
 }

@@ -104,7 +104,7 @@ vtkSmartPointer<vtkPolyData> writeConstraints(
     if (!vertexOf(placed[i]) && placed[i].path.size() > 1)
     {
       const std::optional<LineInQuads> found =
-        isLine(placed[i]) ? measures.lineInQuads(placed[i]) : std::nullopt;
+        isLine(placed[i]) && isMet.at(i) ? measures.lineInQuads(placed[i]) : std::nullopt;
       add(i, found ? found->chain : placed[i].path, lines);
     }
   }

@@ -285,8 +285,15 @@ TEST(ConstraintWords, AConnectionIsMetWhereChainAndLineAreNearEachOtherBothWays)
   EXPECT_FALSE(words[2].isMet);
   EXPECT_NE(words[2].reason.find("within 6 edge lengths"), std::string::npos) << words[2].reason;
   EXPECT_FALSE(words[3].isMet);
-  EXPECT_NE(words[3].reason.find("1.5 edge lengths from the end"), std::string::npos)
+  EXPECT_NE(words[3].reason.find("1.5 edge lengths from an end"), std::string::npos)
     << words[3].reason;
+
+  // Where the map tells why it has no line, a chain that is there without it says nothing.
+  asked.curves[0].why = "an irregular vertex stands in the way";
+  const std::vector<ConstraintWord> told = judgeConstraints(asked, withIrregularPoints(), {});
+  EXPECT_TRUE(told[0].isMet) << told[0].reason;
+  EXPECT_FALSE(told[3].isMet);
+  EXPECT_EQ(told[3].reason, asked.curves[0].why);
 }
 
 /// Unit quads round an axis, so many round and along.
