@@ -15,6 +15,8 @@
 #include "vtkPVXMLElement.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxyLocator.h"
+#include "vtkSMProxySelectionModel.h"
+#include "vtkSMSessionProxyManager.h"
 
 #include <QObject>
 #include <QPointer>
@@ -28,11 +30,19 @@ namespace quadrille
 namespace
 {
 
-/// The browser takes the row of a filter away and puts it in elsewhere, where the selection is lost.
+/// The browser takes the row of a filter away and puts it in elsewhere, where the selection is lost: mostly in the
+/// browser alone, but from some undo on for all, though the filter stays the active source.
 void selectAgain()
 {
   pqActiveObjects& active = pqActiveObjects::instance();
-  Q_EMIT active.selectionChanged(active.selection());
+  if (!active.selection().isEmpty() || !active.activeSource())
+  {
+    Q_EMIT active.selectionChanged(active.selection());
+    return;
+  }
+  vtkSMProxySelectionModel* selection =
+    active.activeSource()->proxyManager()->GetSelectionModel("ActiveSources");
+  selection->Select(selection->GetCurrentProxy(), vtkSMProxySelectionModel::CLEAR_AND_SELECT);
 }
 
 /// ParaView selects nothing when it has loaded a state.

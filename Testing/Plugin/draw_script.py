@@ -43,6 +43,11 @@ def constraints():
     return found
 
 
+def selected():
+    """The number of rows of the pipeline browser that are."""
+    return servermanager.ProxyManager().SMProxyManager.GetSelectionModel("ActiveSources").GetNumberOfSelectedProxies()
+
+
 def from_polyline(places, line, is_closed=False):
     """The distance of each place from the line."""
     places, line = numpy.array(places), numpy.array(line)

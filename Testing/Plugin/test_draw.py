@@ -440,6 +440,24 @@ def check_undo(session, chance):
     return bad
 
 
+def check_rows(session, chance):
+    """Actions that are undone, again and again, leave the row selected that was."""
+    session.ask("clear()")
+    session.look(270, 20)
+    session.take("Valence")
+    rows = [session.value("selected()")]
+    for _ in range(3):
+        ACTIONS["Valence"](session, chance)
+        rows.append(session.value("selected()"))
+        session.xdotool("key", "ctrl+z")
+        session.settle()
+        rows.append(session.value("selected()"))
+    session.xdotool("key", "Escape")
+    fine = min(rows) > 0
+    print(f"rows that are selected after actions and undos: {rows}: {'fine' if fine else 'BAD'}", flush=True)
+    return not fine
+
+
 def length_of_words(session):
     """Dark pixels behind the buttons and fields of the tool bar."""
     session.ask("pass")
@@ -770,6 +788,7 @@ def ring_pixels(session, pixel):
 #: Each with a session, random choices and a number of places. The last ones have many quads.
 CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _: check_camera(s, c),
           "undo": lambda s, c, _: check_undo(s, c), "remove": lambda s, c, _: check_remove(s, c),
+          "rows": lambda s, c, _: check_rows(s, c),
           "ball": lambda s, c, _: check_ball(s, c), "merge": check_merge, "handles": check_handles,
           "picks": lambda s, c, n: test_places.check_picks(s, c, 3 * n),
           "strokes": lambda s, c, n: test_places.check_strokes(s, c, 2 * n),
