@@ -309,31 +309,36 @@ Status simplify(Settling& work)
     KeyMaker(sized.key)
       .add(sized.edgeLength, work.options.smallestDetail, work.isRest, work.takesAll)
       .key();
-  if (!recall(key, asked, work))
+  const auto judge = [&](bool isCut)
+  { return judgeHandles(sized, isCut, work.options.threads, work.store); };
+  if (recall(key, asked, work))
   {
-    DetailLimits limits =
-      detailLimits(sized.edgeLength, work.options.smallestDetail, work.takesAll, work.isRest);
-    fill(work, limits.boundaryLoops);
-    Status status = judgeHandles(sized, false, work.options.threads, work.store);
-    if (!status.ok())
-    {
-      return status;
-    }
-    cutAll(work, limits);
-    if (!work.takesAll && !judgeHandles(sized, true, work.options.threads, work.store).ok())
-    {
-      // What is refused with them can be done without.
-      limits = detailLimits(sized.edgeLength, work.options.smallestDetail, true, work.isRest);
-      fill(work, limits.boundaryLoops);
-      cutAll(work, limits);
-    }
-    if (work.isOwn)
-    {
-      takeRequests(*sized.surface, asked, work);
-      remember(key, work);
-    }
+    return judge(true);
   }
-  return judgeHandles(sized, true, work.options.threads, work.store);
+  DetailLimits limits =
+    detailLimits(sized.edgeLength, work.options.smallestDetail, work.takesAll, work.isRest);
+  fill(work, limits.boundaryLoops);
+  Status status = judge(false);
+  if (!status.ok())
+  {
+    return status;
+  }
+  cutAll(work, limits);
+  status = judge(true);
+  if (!status.ok() && !work.takesAll)
+  {
+    // What is refused with them can be done without.
+    limits = detailLimits(sized.edgeLength, work.options.smallestDetail, true, work.isRest);
+    fill(work, limits.boundaryLoops);
+    cutAll(work, limits);
+    status = judge(true);
+  }
+  if (work.isOwn)
+  {
+    takeRequests(*sized.surface, asked, work);
+    remember(key, work);
+  }
+  return status;
 }
 
 /// The loops that are left, which quads resolve where the first plan has sizes for them.
