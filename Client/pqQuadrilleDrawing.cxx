@@ -744,7 +744,7 @@ void pqQuadrilleDrawing::finishConnection(vtkSMSourceProxy* filter)
   std::vector<Place> line;
   if (quadrille::lengthOf(this->Path) >= kBallReach * this->pixelRatio())
   {
-    // A drag says which way round.
+    // A drag says where the line lies.
     const std::optional<Place> end = this->ballAt(filter, this->Path.back(),
       "The drag does not end on a ball: drag from one ball to another one.");
     const std::optional<Line> drawn = end ? this->drawnLine(filter, false) : std::nullopt;

@@ -15,7 +15,7 @@
 #include "Pipeline/FirstLevels.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/SizedSurface.h"
-#include "Requests/CycleSectors.h"
+#include "Requests/DrawnLines.h"
 #include "Requests/Guides.h"
 #include "Session/Moves.h"
 #include "Stages/Log.h"
@@ -94,6 +94,13 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
       "an irregular vertex is to be moved, which needs the quads without "
       "the move: only Quad Remesh can do this");
   }
+  const std::vector<quadrille::CurveRequest>& drawnCurves = converted.input.curves;
+  if (!std::all_of(drawnCurves.begin(), drawnCurves.end(),
+        [](const quadrille::CurveRequest& curve) { return curve.isDrawn(); }))
+  {
+    throw quadrille::InvalidInput("a connection is asked for, which needs the quads without it: "
+                                  "only Quad Remesh can do this");
+  }
   quadrille::RemeshOptions options = this->MakeOptions(block);
   // The log belongs to the surface as the next filters prepare it again.
   options.smallDetails = quadrille::SmallDetails::Resolve;
@@ -101,7 +108,7 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   quadrille::checkOptions(options);
   // The log knows features alone, which cycles become.
   quadrille::DrawnRequests drawn = converted.input.drawn;
-  drawn.features = quadrille::featuresWithCycles(std::move(drawn.features), converted.input.curves);
+  quadrille::addFeatures(drawnCurves, quadrille::CurveKind::Cycle, drawn.features);
   quadrille::ResultStore* store = this->KeepLevels ? &held.levels : nullptr;
   if (store != nullptr && !hasRoom(converted.input, options, *store))
   {
@@ -128,8 +135,7 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   made->key.input = store != nullptr ? entered.known.inputHash
                                      : quadrille::contentHash(framed.input, options.threads);
   quadrille::DrawnRequests drawnInFrame = framed.input.drawn;
-  drawnInFrame.features =
-    quadrille::featuresWithCycles(std::move(drawnInFrame.features), framed.input.curves);
+  quadrille::addFeatures(framed.input.curves, quadrille::CurveKind::Cycle, drawnInFrame.features);
   made->key.drawn = quadrille::drawnHash(std::move(drawnInFrame));
   options.progress =
     this->MakeProgress(0.0, 1.8); // the levels end where half of a whole run is done

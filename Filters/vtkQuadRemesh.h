@@ -39,7 +39,7 @@
  *      families of edges of the quad there, in the plane of the face; the mean by area, and in `Deviation95` the 95th
  *      percentile. Met: a mean of at most 5.
  *    - "edge lengths", curves: the largest distance of their course over the faces from the quads' edges. Met: at most
- *      0.3. Of connections and cycles that of the straight chain of edges from the course; met where there is one.
+ *      0.3. Of connections and cycles that of the straight chain of edges from the course, or back; met: at most 0.5.
  *    - "edge lengths", valences, and moves (kind "move") at their ends: the distance to the nearest point of the quads
  *      with that valence, on boundaries one more than its edges; of 4 it is 0 where the nearest point has it. Met: at
  *      most 0.3, and where the vertex of a move was it is regular.
@@ -534,8 +534,8 @@ public:
 
   ///@{
   /// Optional inputs: polylines between irregular vertices, or from one to a feature or boundary, that a straight chain
-  /// of edges is to join (port 4), and closed ones along which a chain of edges is to close (port 5). Their course says
-  /// which way round other irregular vertices, handles and holes.
+  /// of edges is to join (port 4), and closed ones along which a chain of edges is to close (port 5). The chains lie
+  /// where the lines are. What connections join is looked for in quads without them, which are made first.
   void SetConnectionsConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(4, output); }
   void SetConnectionsData(vtkDataObject* lines) { this->SetInputDataObject(4, lines); }
   void SetCyclesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(5, output); }

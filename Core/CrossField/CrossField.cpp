@@ -249,7 +249,7 @@ std::optional<Solution> withTurns(
   const RepairData data(
     change.mesh, change.topology, change.constraints, solution.angle, solution.jump);
   TurnRepairInput input = change.input;
-  if (!checkPrescription(change.mesh, change.topology, prescription, data.turns, *input.held).ok())
+  if (!checkPrescription(change.mesh, change.topology, prescription, data.turns).ok())
   {
     return std::nullopt;
   }
@@ -346,11 +346,10 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
   const std::vector<double> natural = naturalTurns(topology, length);
   const std::vector<double> stiffness = stiffnessOf(topology, options.guides, constraints);
   const std::vector<double> irregularPrice = priceOfIrregular(topology, options.regular);
-  std::vector<std::uint8_t> held; // the same for all candidates
   const auto inputOf = [&](const RepairData& data) -> TurnRepairInput
   {
     return { &topology, &data.residual, &data.turns, &natural, length, &prescription, &stiffness,
-      &held, &irregularPrice };
+      &irregularPrice };
   };
   Solution best;
   std::vector<std::size_t> fewest;
@@ -363,12 +362,11 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
       countTry(Try::OtherField);
     }
     Solution solution{ candidate, roundJumps(mesh, topology, candidate), {}, {}, {} };
-    held = holdJumps(mesh, topology, options.lines, candidate, solution.jump);
     const RepairData data(mesh, topology, constraints, candidate, solution.jump);
     if (best.angle.empty())
     {
       // The sums that matter are the same for all candidates.
-      solution.status = checkPrescription(mesh, topology, prescription, data.turns, held);
+      solution.status = checkPrescription(mesh, topology, prescription, data.turns);
       if (!solution.status.ok())
       {
         solution.turns = data.turns;
@@ -410,8 +408,7 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
   }
 
   const Change change{ mesh, topology, constraints, options,
-    { &topology, nullptr, nullptr, &natural, length, nullptr, &stiffness, &held,
-      &irregularPrice } };
+    { &topology, nullptr, nullptr, &natural, length, nullptr, &stiffness, &irregularPrice } };
   if (best.status.ok())
   {
     const std::vector<int> sectors = turnPatches(change, best);

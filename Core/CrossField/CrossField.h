@@ -24,14 +24,6 @@
 namespace quadrille
 {
 
-/// A line that the field runs along, through unconstrained edges, the same axis all the way.
-struct FieldLine
-{
-  std::vector<Index> crossed; ///< half-edges through which it leaves its faces
-  std::vector<Vector3>
-    along; ///< its direction, of any length, in each face; one more than `crossed`
-};
-
 /// Where sizes are asked for.
 enum class SizeWish
 {
@@ -53,9 +45,6 @@ struct CrossFieldOptions
   std::vector<Guide> guides;
   /// Empty or #V: turns that vertices must have, met exactly; 0 where free, else see ValenceRequest.
   std::vector<int> targetValences;
-  /// Lines along which the field does not turn against their direction, so that a map can have them as isolines; guides
-  /// are to lead it there. No quarter turns move across them.
-  std::vector<FieldLine> lines;
   /// Empty or #V flags: vertices that are to be regular as far as can be.
   std::vector<std::uint8_t> regular;
   /// Empty or #H: quarter turns that the sector from a constrained half-edge on must make, met exactly; 0 where free. A
@@ -63,17 +52,6 @@ struct CrossFieldOptions
   std::vector<int> sectorTurns;
   /// Why the mesh has sizes, if it has some: for their sake irregular vertices move.
   SizeWish sizes = SizeWish::None;
-};
-
-/// A line of the map along an axis that joins two vertices along a way through the faces: the other coordinate is the
-/// same at both ends.
-struct Isoline
-{
-  Index start = kInvalidIndex; ///< corner at the first vertex, in the first face
-  Index end = kInvalidIndex;   ///< corner at the last vertex, in the last face
-  std::vector<Index>
-    crossed;    ///< half-edges through which the way leaves its faces; none is constrained
-  int axis = 0; ///< quarter turns from the first axis of the first face
 };
 
 /// A guide that the field follows in a face.
@@ -99,9 +77,8 @@ struct CrossField
   /// #F or empty, set by who makes the map: the shape that a face should have in it is this, symmetric and in the plane
   /// of `angle`, times the flat face; see measureStretch.
   std::vector<Eigen::Matrix2d> stretch;
-  /// Set by who makes the map: lines that it has to have.
-  std::vector<Isoline> isolines;
-  /// The same: parts of the boundary that are equally long in the map, and whose ends are integer vertices.
+  /// Set by who makes the map: parts of the boundary that are equally long in the map, and whose ends are integer
+  /// vertices.
   std::vector<SeamEdges> seams;
   std::vector<FieldGuide> guides; ///< #F, or empty without guides; the map follows them, too
 

@@ -18,17 +18,11 @@ namespace
 {
 
 // Sets of fans whose turns have a fixed sum.
-DisjointSets fansOfFixedSum(const FieldTopology& topology, const TurnPrescription& prescription,
-  const std::vector<std::uint8_t>& held)
+DisjointSets fansOfFixedSum(const FieldTopology& topology, const TurnPrescription& prescription)
 {
   DisjointSets sets(topology.fans.size(), 1);
-  for (std::size_t e = 0; e < topology.edges.size(); ++e)
+  for (const std::array<Index, 2>& edge : topology.edges)
   {
-    const std::array<Index, 2>& edge = topology.edges[e];
-    if (!held.empty() && held[e] != 0)
-    {
-      continue;
-    }
     sets.join(topology.fanOfCorner[edge[0]], topology.fanOfCorner[edge[1]]);
   }
   std::vector<Index> first(prescription.turns.size(), kInvalidIndex);
@@ -177,14 +171,13 @@ TurnPrescription prescribeTurns(const Mesh& mesh, const FieldTopology& topology,
 }
 
 Status checkPrescription(const Mesh& mesh, const FieldTopology& topology,
-  const TurnPrescription& prescription, const std::vector<int>& turns,
-  const std::vector<std::uint8_t>& held)
+  const TurnPrescription& prescription, const std::vector<int>& turns)
 {
   if (prescription.turns.empty())
   {
     return {};
   }
-  DisjointSets sets = fansOfFixedSum(topology, prescription, held);
+  DisjointSets sets = fansOfFixedSum(topology, prescription);
   for (const SetSums& sum : sumUp(topology, prescription, turns, sets))
   {
     // Turns that the free fans have to make together.

@@ -30,9 +30,8 @@ TurnPrescription prescribeTurns(const Mesh& mesh, const FieldTopology& topology,
 /// Shifts of jumps keep the sum of turns of all fans that unconstrained edges join (and that belong to one vertex with
 /// a prescription). Infeasible, with the place and what is missing, where the fans that are free cannot make up for
 /// those that are not: an inner vertex goes from 3 to 6 turns, a sector from one to what its triangles carry.
-/// turns: per fan, now. held: empty, or flags of the topology's edges whose jumps do not shift.
+/// turns: per fan, now.
 Status checkPrescription(const Mesh& mesh, const FieldTopology& topology,
-  const TurnPrescription& prescription, const std::vector<int>& turns,
-  const std::vector<std::uint8_t>& held = {});
+  const TurnPrescription& prescription, const std::vector<int>& turns);
 
 } // namespace quadrille

@@ -71,7 +71,7 @@ public:
     {
       const std::array<Index, 2>& edge = input_.topology->edges[e];
       int shift = 0;
-      for (int step = 0; step < kEdgeSteps && !input_.isHeld(e); ++step)
+      for (int step = 0; step < kEdgeSteps; ++step)
       {
         shift += static_cast<int>(flow_.flow(arc++));
         shift -= static_cast<int>(flow_.flow(arc++));
@@ -122,7 +122,7 @@ private:
     const std::array<Index, 2>& edge = input_.topology->edges[e];
     const Index head = input_.topology->fanOfCorner[edge[1]];
     const Index tail = input_.topology->fanOfCorner[edge[0]];
-    for (int step = 0; step < kEdgeSteps && !input_.isHeld(e); ++step)
+    for (int step = 0; step < kEdgeSteps; ++step)
     {
       addArc(head, tail, shiftCost(input_, e, step, 1));
       addArc(tail, head, shiftCost(input_, e, -step, -1));
@@ -228,10 +228,6 @@ private:
   }
   double linkCost(const Link& link) const
   {
-    if (input_.isHeld(link.edge))
-    {
-      return kForbiddenTurn;
-    }
     // What an earlier shift would win back is not for this path to collect.
     return std::max(
       0.0, shiftCost(input_, link.edge, result_.shift[link.edge], link.forward ? 1 : -1));

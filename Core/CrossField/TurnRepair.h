@@ -23,12 +23,9 @@ struct TurnRepairInput
   const TurnPrescription* prescription = nullptr; ///< none: all fans are free
   /// Per topology edge, null or empty: what the cost of its shifts is multiplied with (guided regions).
   const std::vector<double>* stiffness = nullptr;
-  /// Per topology edge, null or empty: flags of those that have no shift.
-  const std::vector<std::uint8_t>* held = nullptr;
   /// Per fan, null or empty: what it costs on top where it is irregular.
   const std::vector<double>* irregular = nullptr;
 
-  bool isHeld(std::size_t edge) const { return held && !held->empty() && (*held)[edge] != 0; }
   double costOfIrregular(std::size_t fan) const
   {
     return irregular && !irregular->empty() ? (*irregular)[fan] : 0.0;

@@ -28,12 +28,6 @@ std::vector<int> countTurns(const Mesh& mesh, const FieldTopology& topology,
   const FieldConstraints& constraints, const std::vector<double>& angle,
   const std::vector<int>& jump);
 
-/// Sets the period jumps (#H) of the half-edges that lines cross to those with which the field's axis nearest to the
-/// line goes on. Where two lines cross the same edge the earlier one counts; the other makes up for it elsewhere.
-/// angle: #F. Returns flags of the topology's edges whose jumps may not change any more; empty without lines.
-std::vector<std::uint8_t> holdJumps(const Mesh& mesh, const FieldTopology& topology,
-  const std::vector<FieldLine>& lines, const std::vector<double>& angle, std::vector<int>& jump);
-
 /// Quarter turns that the surface itself makes in each fan (a real number). The angle that a sector
 /// adds to its border curve counts only as far as the curve, seen over `window` to either side, turns the
 /// same way: noise that turns left and right again within the window is straight. A sharp angle always counts.

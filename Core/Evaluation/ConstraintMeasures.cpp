@@ -457,39 +457,33 @@ ConstraintMeasure ConstraintMeasures::line(
     return word;
   }
   const std::optional<LineInQuads> found = lineInQuads(constraint);
-  const bool isCycle = constraint.kind == ConstraintKind::Cycle;
-  word.isMet = found && found->isMet() && !(isCycle && found->distance > kMetCycle);
+  word.isMet = found && found->isMet();
   if (word.isMet)
   {
     word.deviation = found->distance;
     word.place = found->place;
     word.reason.clear();
-    word.remark = found->distance > kToldLine ? "the chain of edges is up to " +
-        shortText(found->distance) + " edge lengths away from the line"
-                                              : "";
     return word;
   }
-  if (isCycle)
+  const bool isCycle = constraint.kind == ConstraintKind::Cycle;
+  ConstraintMeasure edges = curve(constraint.path);
+  if (edges.isMet && (isCycle || (!found && why.empty())))
   {
-    ConstraintMeasure edges = curve(constraint.path);
-    if (edges.isMet)
-    {
-      edges.isMet = false;
-      edges.reason = "the quads' edges run along it, but turn at irregular vertices on it: draw it "
-                     "farther from others and from corners, or ask for smaller quads";
-      return edges;
-    }
+    edges.isMet = false;
+    edges.reason = "the quads' edges run along it, but turn at irregular vertices on it: draw it "
+                   "farther from others and from corners, or ask for smaller quads";
+    return edges;
   }
   if (!why.empty())
   {
     word.reason = why; // a chain that is there without it tells nothing
   }
-  else if (found && isCycle)
+  else if (found && found->ends <= kMetLine)
   {
     word.deviation = found->distance;
     word.place = found->place;
     word.reason = "the chain of edges is up to " + shortText(found->distance) +
-      " edge lengths away from the line, at most " + shortText(kMetCycle) + " count as met";
+      " edge lengths away from the line, at most " + shortText(kMetLine) + " count as met";
   }
   else if (found)
   {
@@ -497,13 +491,13 @@ ConstraintMeasure ConstraintMeasures::line(
     word.place = found->end;
     word.reason = "the chain of edges ends at " + placeText(found->end) + ", " +
       shortText(found->ends) + " edge lengths from an end of the line, at most " +
-      shortText(kMetEnds) + " count as met: end the line there";
+      shortText(kMetLine) + " count as met: end the line there";
   }
   else
   {
     word.reason = constraint.curve >= outcomes.size()
       ? "the method has no connections and cycles: choose another one"
-      : "the quads have no straight chain of edges within " + shortText(kMetLine) +
+      : "the quads have no straight chain of edges within " + shortText(kNearLine) +
         " edge lengths of the line";
   }
   return word;

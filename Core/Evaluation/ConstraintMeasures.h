@@ -6,7 +6,7 @@
 
 #include "Evaluation/LinesInQuads.h"
 #include "Evaluation/QuadPlaces.h"
-#include "Integers/CurveIsolines.h"
+#include "Mesh/Requests.h"
 #include "Requests/DrawnConstraints.h"
 
 #include <array>
@@ -23,10 +23,6 @@ namespace quadrille
 constexpr double kMetAngle = 5;
 /// Places (valences, moves) and feature lines: edge lengths of the quads there, at most.
 constexpr double kMetDistance = 0.3;
-/// Cycles: mean edge lengths from the chain to the line or back, at most.
-constexpr double kMetCycle = 0.5;
-/// Connections: the same, from which on it is told of those that are met.
-constexpr double kToldLine = 0.5;
 /// Guides: a share of irregular vertices in the guided region above this is worth a word.
 constexpr double kNotableShare = 0.1;
 /// Sizes: the factor of the median; of the array of sizes, on average.

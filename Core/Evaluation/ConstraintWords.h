@@ -6,7 +6,7 @@
 #include "Evaluation/ArrayConstraints.h"
 #include "Evaluation/ConstraintMeasures.h"
 #include "Extraction/Extraction.h"
-#include "Integers/CurveIsolines.h"
+#include "Mesh/Requests.h"
 #include "Requests/DrawnConstraints.h"
 
 #include <cstdint>

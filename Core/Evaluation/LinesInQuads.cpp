@@ -104,7 +104,7 @@ private:
 void keepBetter(std::optional<LineInQuads>& best, LineInQuads&& found)
 {
   const auto rank = [](const LineInQuads& line) { return std::pair(!line.isMet(), line.distance); };
-  if (found.distance <= kMetLine && (!best || rank(found) < rank(*best)))
+  if (found.distance <= kNearLine && (!best || rank(found) < rank(*best)))
   {
     best = std::move(found);
   }
@@ -160,7 +160,7 @@ std::optional<LineInQuads> LinesInQuads::findCycle(const std::vector<Vector3>& p
   const LineComparison line(path, edgeLength_);
   std::optional<LineInQuads> best;
   for (const std::vector<Index>& chain :
-    chains_.closedNear(std::vector<Vector3>(path.begin(), path.end() - 1), kMetLine * edgeLength_))
+    chains_.closedNear(std::vector<Vector3>(path.begin(), path.end() - 1), kNearLine * edgeLength_))
   {
     LineInQuads found = lineOf(chain);
     if (lengthOf(found.chain) <= kOnceRound * lengthOf(path))
@@ -198,7 +198,7 @@ std::optional<LineInQuads> LinesInQuads::findConnection(const std::vector<Vector
           found.end = startOff > endOff ? mesh_.points[first] : last;
           keepBetter(best, std::move(found));
         }
-        return chain.back() != first && line.distance(last) <= kMetLine;
+        return chain.back() != first && line.distance(last) <= kNearLine;
       });
   }
   return best;

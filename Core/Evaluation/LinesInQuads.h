@@ -14,11 +14,11 @@
 namespace quadrille
 {
 
-/// Edge lengths of the quads there by which a connection may end beside the end of its line.
-constexpr double kMetEnds = 1;
-/// Mean edge lengths by which chain and line may differ: the chain is straight in the map, the line need not be. The
-/// table tells by how much they do.
-constexpr double kMetLine = 6;
+/// Mean edge lengths by which chain and line may differ, and edge lengths of the quads there by which a connection may
+/// end beside the end of its line.
+constexpr double kMetLine = 0.5;
+/// Mean edge lengths within which a chain is told of.
+constexpr double kNearLine = 6;
 
 bool isLine(const PlacedConstraint& constraint);
 
@@ -34,7 +34,7 @@ struct LineInQuads
     0; ///< of a connection: from the chain's end to the line's, in edge lengths; the larger
   Vector3 end = Vector3::Zero(); ///< of the chain, where that is
 
-  bool isMet() const { return ends <= kMetEnds; }
+  bool isMet() const { return ends <= kMetLine && distance <= kMetLine; }
 };
 
 class LinesInQuads
@@ -43,7 +43,7 @@ public:
   /// Both stay as they are while this is used; nearest: of the mesh.
   LinesInQuads(const QuadMesh& mesh, const NearestQuads& nearest);
 
-  /// Of all chains within kMetLine of the line the nearest one, those that are met first. None where there is none.
+  /// Of all chains within kNearLine of the line the nearest one, those that are met first. None where there is none.
   /// A connection runs from a point that is irregular, on a feature or on the boundary to another one, each within
   /// three edge lengths of its end, and passes regular points only; a cycle closes once round.
   std::optional<LineInQuads> find(const PlacedConstraint& constraint) const;

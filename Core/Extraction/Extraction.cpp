@@ -369,7 +369,6 @@ void improveShape(const Mesh& mesh, const ExtractionOptions& options, QuadMesh& 
   smoothing.fixedVertices = options.fixedVertices;
   smoothing.progress = [&options](double fraction, const std::string& text)
   { return !options.progress || options.progress(0.9 + 0.1 * fraction, text); };
-  smoothing.wanted = options.wanted;
   smoothing.guides = options.guides;
   smoothQuads(mesh, quads, smoothing);
   if (options.smoothingSteps > 0)

@@ -11,7 +11,6 @@
 #include "Mesh/Mesh.h"
 #include "Mesh/Requests.h"
 #include "Quads/QuadMesh.h"
-#include "Quads/QuadSmoothing.h"
 
 #include <string>
 #include <utility>
@@ -51,8 +50,7 @@ struct ExtractionOptions
   ChainsOfQuads keptChains; ///< see QuadRepairOptions
   /// Vertices of the mesh, ascending, whose quad vertices smoothing must not move (irregular ones that were asked for).
   std::vector<Index> fixedVertices;
-  std::vector<WantedPlace> wanted; ///< see SmoothingOptions
-  std::vector<FaceGuide> guides;   ///< the same
+  std::vector<FaceGuide> guides; ///< see SmoothingOptions
   /// Whether the map's certificate is valid (GridMap/Certificate.h): then edges are not checked again.
   bool mapIsCertified = false;
   const SurfaceShape* shape = nullptr; ///< shapeOf the mesh, where the caller has it

@@ -77,15 +77,15 @@ class Untangling
 {
 public:
   Untangling(const Mesh& mesh, const CrossField& field, const UntangleProblem& problem,
-    const Snap& snap, const ProgressCallback& progress, int maximumSteps)
-    : mesh_(mesh), field_(field), problem_(problem), snap_(snap), maximumSteps_(maximumSteps),
+    const Snap& snap, const ProgressCallback& progress)
+    : mesh_(mesh), field_(field), problem_(problem), snap_(snap),
       options_(fieldUntangleOptions(progress)), weight_(problem.weight)
   {
   }
 
   FieldUntangling run(const Eigen::VectorXd& start)
   {
-    options_.maximumSteps = mayTake(kStepsOfWhole);
+    options_.maximumSteps = kStepsOfWhole;
     UntangleResult first = ofWhole(start);
     const std::size_t work = first.work;
     keepIfBetter(std::move(first));
@@ -105,11 +105,6 @@ public:
   }
 
 private:
-  int mayTake(int steps) const
-  {
-    return maximumSteps_ > 0 ? std::min(steps, maximumSteps_ - best_.newtonSteps) : steps;
-  }
-
   /// Where the bound of work is reached, that tells how far it came.
   UntangleResult ofWhole(const Eigen::VectorXd& start) const
   {
@@ -151,13 +146,9 @@ private:
     try
     {
       const WorkScope scope(mostWork);
+      options_.maximumSteps = kMostNewtonSteps;
       for (int idle = 0; !best_.defects.none() && idle < kIdleRounds;)
       {
-        options_.maximumSteps = mayTake(kMostNewtonSteps);
-        if (options_.maximumSteps <= 0)
-        {
-          return;
-        }
         countTry(Try::MoreWeight);
         idle = keepIfBetter(nearby()) ? 0 : idle + 1;
       }
@@ -200,7 +191,6 @@ private:
   const CrossField& field_;
   const UntangleProblem& problem_;
   const Snap& snap_;
-  int maximumSteps_;
   UntangleOptions options_;
   std::vector<double> weight_; ///< of all rounds nearby, per triangle
   FieldUntangling best_;
@@ -210,9 +200,9 @@ private:
 
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const UntangleProblem& problem, const Eigen::VectorXd& start, const Snap& snap,
-  const ProgressCallback& progress, int maximumSteps)
+  const ProgressCallback& progress)
 {
-  return Untangling(mesh, field, problem, snap, progress, maximumSteps).run(start);
+  return Untangling(mesh, field, problem, snap, progress).run(start);
 }
 
 void followRequests(const Mesh& mesh, const CrossField& field, const UntangleProblem& problem,

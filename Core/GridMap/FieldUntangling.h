@@ -38,11 +38,10 @@ struct FieldUntangling
 /// From the start. Seams fix the winding of a vertex modulo 4 only, so a start that is inverted there may end with a
 /// wrong one: then the references are fitted again near it, with more weight round it [stiffening of Bommes et al.
 /// 2009] and all else held, until it winds rightly from the start. The first triangles of the problem are the faces.
-/// maximumSteps: of Newton, of all attempts; 0 for no bound but that of each. Throws SpentInFaces where a bound of work
-/// is reached.
+/// Throws SpentInFaces where a bound of work is reached.
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const UntangleProblem& problem, const Eigen::VectorXd& start, const Snap& snap,
-  const ProgressCallback& progress, int maximumSteps = 0);
+  const ProgressCallback& progress);
 
 /// Newton steps from a map without defects that bring the isolines along the guides of the field, and the ratio of the
 /// two stretches of the faces towards `limit`, >= 1 or 0 for none; `untangling` changes only where the new map has no

@@ -13,7 +13,6 @@
 #include "GridMap/Certificate.h"
 #include "GridMap/MapCheck.h"
 #include "GridMap/PreviousMap.h"
-#include "Integers/CurveIsolines.h"
 #include "Mesh/Mesh.h"
 #include "Requests/Guides.h"
 
@@ -55,8 +54,8 @@ struct GridMapOptions
   std::vector<int> targetValences; ///< empty or #V, the same
   std::vector<int> sectorTurns;    ///< empty or #H, the same
   SizeWish sizes = SizeWish::None; ///< the same
-  /// Connections and cycles, on or near the mesh. Where no map has them all, the newest ones are left out, which
-  /// GridMapResult::curves tells. Not by the methods that round.
+  /// Lines, which are features of the mesh (see DrawnLines.h); where no map is straight along all of them irregular
+  /// vertices may lie on them, which GridMapResult::curves tells. Those that are not drawn stay out.
   std::vector<CurveRequest> curves;
   /// Parts of the boundary that get the same number of edges. Both of a pair must be of one component.
   std::vector<SeamRequest> seams;
@@ -107,9 +106,7 @@ struct GridMapResult : MapWork
   std::vector<Index>
     failedIn; ///< a coarse vertex of each component that has no map, however it is tried
   std::vector<CurveOutcome> curves; ///< what became of GridMapOptions::curves
-  /// Coarse vertices round which the triangulation lacks freedom for all curves, where some were left out.
-  std::vector<Index> curvesFailedAt;
-  double refinement = 1; ///< of the component whose sizes had to shrink most
+  double refinement = 1;            ///< of the component whose sizes had to shrink most
   /// The share of the area whose ratio of stretches is above the limit after all; 0 without limit, or where the status
   /// is not ok.
   double beyondAnisotropyLimit = 0;
@@ -122,13 +119,5 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options);
 /// What the next map can start from; the status of `map` must be ok. vertexIds: #V of its mesh.
 PreviousMap previousMap(
   const Mesh& mesh, const GridMapResult& map, const std::vector<Index>& vertexIds);
-
-/// Radians, on average over the area of a region.
-constexpr double kFollowedAngle = 0.045;
-
-/// How many regions, that is connected sets of guided faces, the isolines leave by more than that. guides: empty or #F;
-/// uv: #H.
-std::size_t unfollowedRegions(
-  const Mesh& mesh, const std::vector<Guide>& guides, const std::vector<FixedVec2>& uv);
 
 } // namespace quadrille

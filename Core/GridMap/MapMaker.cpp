@@ -191,8 +191,8 @@ std::string explain(const std::vector<Component>& components, std::size_t i, std
 class MapMaker
 {
 public:
-  MapMaker(const Mesh& mesh, const GridMapOptions& options, const CurveTry& howto)
-    : mesh_(mesh), options_(options), try_(howto), field_(mesh, options, howto, result_)
+  MapMaker(const Mesh& mesh, const GridMapOptions& options, bool hasStraightLines)
+    : mesh_(mesh), options_(options), field_(mesh, options, hasStraightLines, result_)
   {
   }
 
@@ -209,7 +209,6 @@ public:
       result_.failedAt = result_.field.failedAt;
       return std::move(result_);
     }
-    field_.addLines();
     split();
     if (options_.method == MapMethod::Seamless)
     {
@@ -226,9 +225,6 @@ public:
     collect();
     return std::move(result_);
   }
-
-  /// Of the field that the last run led along the curves.
-  bool holdsIrregular() const { return field_.holdsIrregular(); }
 
 private:
   ProgressCallback progressOf(std::size_t i, double begin, double end) const
@@ -472,7 +468,6 @@ private:
     seamlessOptions.targetQuads = quads;
     seamlessOptions.previous = component.earlier();
     seamlessOptions.anisotropyLimit = options_.anisotropyLimit;
-    seamlessOptions.maximumSteps = try_.maximumSteps;
     seamlessOptions.progress = progress;
     SeamlessResult seamless = madeOrTold(
       part, {}, [&] { return computeSeamlessMap(part.mesh, part.field, seamlessOptions); });
@@ -682,7 +677,6 @@ private:
 
   const Mesh& mesh_;
   const GridMapOptions& options_;
-  const CurveTry& try_;
   GridMapResult result_;
   FieldOfMap field_;
   std::vector<Component> components_;
@@ -690,13 +684,9 @@ private:
 
 } // namespace
 
-TriedMap mapInOneTry(const Mesh& mesh, const GridMapOptions& options, const CurveTry& howto)
+GridMapResult mapInOneTry(const Mesh& mesh, const GridMapOptions& options, bool hasStraightLines)
 {
-  MapMaker maker(mesh, options, howto);
-  TriedMap tried;
-  tried.map = maker.run();
-  tried.holdsIrregular = maker.holdsIrregular();
-  return tried;
+  return MapMaker(mesh, options, hasStraightLines).run();
 }
 
 } // namespace quadrille

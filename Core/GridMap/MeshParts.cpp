@@ -84,17 +84,6 @@ std::vector<MeshPart> splitIntoParts(const Mesh& mesh, const CrossField& field)
   {
     addFace(mesh, field, f, local, parts[component[f]]);
   }
-  for (Isoline line : field.isolines)
-  {
-    CrossField& part = parts[component[Mesh::face(line.start)]].field;
-    line.start = local.halfEdge(line.start);
-    line.end = local.halfEdge(line.end);
-    for (Index& h : line.crossed)
-    {
-      h = local.halfEdge(h);
-    }
-    part.isolines.push_back(std::move(line));
-  }
   for (SeamEdges seam : field.seams)
   {
     CrossField& part = parts[component[Mesh::face(seam.left.front())]].field;

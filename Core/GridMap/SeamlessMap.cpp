@@ -150,8 +150,8 @@ SeamlessResult computeSeamlessMap(
   }
   const auto snap = [&](const Eigen::VectorXd& y)
   { return snapScaled(space, y, options.targetQuads); };
-  FieldUntangling untangled = untangleAlongField(
-    mesh, field, space.problem(), start, snap, options.progress, options.maximumSteps);
+  FieldUntangling untangled =
+    untangleAlongField(mesh, field, space.problem(), start, snap, options.progress);
   followRequests(
     mesh, field, space.problem(), options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);

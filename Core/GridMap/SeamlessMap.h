@@ -23,8 +23,6 @@ struct SeamlessOptions
   /// of the Poisson equation's solution.
   const CarriedMap* previous = nullptr;
   double anisotropyLimit = 0; ///< as in GridMapOptions
-  int maximumSteps =
-    0; ///< of Newton until the map is free of inverted triangles; 0: as many as it takes
   ProgressCallback progress;
 };
 struct SeamlessResult

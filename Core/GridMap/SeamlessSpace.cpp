@@ -31,10 +31,6 @@ public:
     fixOneWedgePerComponent(rank);
     joinSegments();
     alignConstrainedEdges();
-    for (const Isoline& line : field.isolines)
-    {
-      addIsoline(line);
-    }
     for (const SeamEdges& seam : field.seams)
     {
       addSeam(seam);
@@ -107,34 +103,6 @@ private:
       const Index a = graph_.wedge[h], b = graph_.wedge[Mesh::next(h)];
       rows_.push_back({ { 2 * a + coordinate, 1 }, { 2 * b + coordinate, -1 } });
     }
-  }
-
-  /// The coordinate across the line, of its end seen from the chart of its beginning, less that of its beginning. Going
-  /// along, a place x in the chart that is reached is R90^rotation x + sum there.
-  void addIsoline(const Isoline& line)
-  {
-    const Index coordinate =
-      static_cast<Index>(1 - ((line.axis + graph_.comb[Mesh::face(line.start)]) & 1));
-    IntegerRow row;
-    int rotation = 0;
-    for (const Index h : line.crossed)
-    {
-      const Index g = mesh_.twin[h];
-      const Index leftwards = graph_.segment[g], rightwards = graph_.segment[h];
-      if (rightwards != kInvalidIndex) // x_left = R90^-r (x_right - t)
-      {
-        rotation -= graph_.rotation[rightwards];
-        row.push_back(turnedTerm(2 * (graph_.wedges + rightwards), rotation, coordinate, -1));
-      }
-      else if (leftwards != kInvalidIndex) // x_right = R90^r x_left + t
-      {
-        row.push_back(turnedTerm(2 * (graph_.wedges + leftwards), rotation, coordinate, 1));
-        rotation += graph_.rotation[leftwards];
-      }
-    }
-    row.push_back(turnedTerm(2 * graph_.wedge[line.end], rotation, coordinate, 1));
-    row.push_back({ 2 * graph_.wedge[line.start] + coordinate, -1 });
-    rows_.push_back(std::move(row));
   }
 
   /// Both parts are equally long.

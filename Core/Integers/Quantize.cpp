@@ -7,7 +7,6 @@
 #include "Integers/Quantize.h"
 
 #include "Base/TryCount.h"
-#include "Integers/CurveIsolines.h"
 #include "Integers/CurveShares.h"
 #include "Integers/LockedVertices.h"
 #include "Integers/QuantizeIntegers.h"
@@ -166,16 +165,6 @@ IntegerStart startFrom(const std::vector<FixedVec2>& uv, const Mesh& mesh, const
   return integers.adopt(followed.uv) ? repairValidIntegers(integers) : IntegerStart{};
 }
 
-std::vector<FixedVec2> developedVectors(const UvMesh& map, const CrossField& field)
-{
-  std::vector<FixedVec2> vectors;
-  for (const Isoline& line : field.isolines)
-  {
-    vectors.push_back(developedVector(map, line));
-  }
-  return vectors;
-}
-
 /// The mesh with its seams joined, as each one is an edge now: strips that leave by one part come back by its image, so
 /// that both keep the same length.
 class JoinedSides
@@ -289,13 +278,7 @@ struct Quantizer::State
     wantedArea = uvArea(mesh);
     locked = lockedVertices(coarse, mesh, integerVertices(coarse, field), options.watched);
     freeSeams(coarse, field, locked);
-    const std::vector<FixedVec2> lines = developedVectors(mesh, field);
     decimateInUv(mesh, editor, locked.keep);
-    for (std::size_t i = 0; i < lines.size(); ++i)
-    {
-      // One that cannot be locked is not lost for certain: the map is asked for it in the end.
-      lockLine(mesh, editor, locked.integer, coarse, field.isolines[i], lines[i]);
-    }
     decimated = editor.recordCount();
     const JoinedSides seams(mesh, coarse, field);
     joined = seams.joined();

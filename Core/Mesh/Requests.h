@@ -9,8 +9,11 @@
 #include "Base/Types.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace quadrille
@@ -79,6 +82,30 @@ struct CurveRequest
 {
   CurveKind kind = CurveKind::Connection;
   std::vector<Vector3> points; ///< a polyline on or near the surface; at least 2, of a cycle 3
+  /// Of a connection the valences of what it joins, 0 for a feature or boundary; none: it is not known yet, and there
+  /// is no line of it.
+  std::optional<std::array<int, 2>> ends = {};
+
+  bool isDrawn() const { return kind == CurveKind::Cycle || ends.has_value(); }
+
+  /// Its ends, as a run found them.
+  void setEnds(const Vector3& start, const Vector3& end, const std::array<int, 2>& valences)
+  {
+    points.front() = start;
+    points.back() = end;
+    ends = valences;
+  }
+};
+
+/// What became of a curve.
+struct CurveOutcome
+{
+  bool met = false;
+  std::string why;                 ///< where it is not met: the reason and what helps
+  Vector3 start = Vector3::Zero(); ///< of its course on the surface
+  Vector3 end = Vector3::Zero();
+  std::optional<std::array<int, 2>>
+    ends = {}; ///< of a connection: what it was found to join, see CurveRequest
 };
 
 /// A sector at a vertex: from one feature or boundary edge counterclockwise to the next.

@@ -5,6 +5,7 @@
 #include "Pieces/RemeshInPieces.h"
 #include "Pieces/SurfacePiece.h"
 #include "Pieces/ThinnedSurface.h"
+#include "Pipeline/ConnectionEnds.h"
 #include "Pipeline/DropSteps.h"
 #include "Pipeline/EnterFrame.h"
 #include "Pipeline/Run.h"
@@ -84,6 +85,18 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
   }
 }
 
+PiecesResult thinnedOnce(SurfaceInput input, const RemeshOptions& options)
+{
+  PiecesResult made;
+  made.remeshed = guardedRun(input, options, nullptr,
+    [&](const RemeshOptions& asked, ResultStore*, PlaceScope& places, RemeshResult& remeshed)
+    {
+      EnteredInput entered = enterFrame(std::move(input), asked, nullptr);
+      runThinned(entered.framed, asked, places, remeshed, made);
+    });
+  return made;
+}
+
 } // namespace
 
 PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options)
@@ -94,14 +107,8 @@ PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options)
   refuseIf(!input.held.empty() || !input.seams.empty() || !input.straight.empty(),
     "vertices that are held, and parts of the boundary that are straight or images of each other, "
     "are those of the whole surface: do not have it thinned out.");
-  PiecesResult made;
-  made.remeshed = guardedRun(input, options, nullptr,
-    [&](const RemeshOptions& asked, ResultStore*, PlaceScope& places, RemeshResult& remeshed)
-    {
-      EnteredInput entered = enterFrame(std::move(input), asked, nullptr);
-      runThinned(entered.framed, asked, places, remeshed, made);
-    });
-  return made;
+  return remeshWithEnds(
+    input, options, thinnedOnce, [](PiecesResult& made) -> RemeshResult& { return made.remeshed; });
 }
 
 } // namespace quadrille

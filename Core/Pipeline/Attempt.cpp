@@ -138,7 +138,6 @@ void recordCoarse(const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
   made.stages.add("embed", map.secondsEmbed, coarse, coarse);
   tell({ levels.notice, refinementNotice(map.refinement) }, made.notices);
   made.curves = std::move(map.curves);
-  made.curvesFailedAt = onFinest(map.curvesFailedAt, levels.coarse);
   made.coarse = levels.coarse;
   made.coarseUv = std::move(map.uv);
   if (!map.field.turns.empty()) // there is none where the level is too large for one
@@ -259,12 +258,6 @@ void interrupt(const Hierarchy& levels, std::size_t allowance, MapAttempt& made)
 std::size_t MapAttempt::defects() const
 {
   return certificate.notPositive + certificate.wrongTurns + certificate.seamResiduals;
-}
-
-std::size_t MapAttempt::unmetCurves() const
-{
-  return static_cast<std::size_t>(std::count_if(
-    curves.begin(), curves.end(), [](const CurveOutcome& curve) { return !curve.met; }));
 }
 
 void MapAttempt::pack(const Mesh& surface)

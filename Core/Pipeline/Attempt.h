@@ -83,7 +83,6 @@ struct MapAttempt
   std::size_t work = 0;           ///< see Base/WorkCount.h; of the map of the coarse level
   std::size_t workOfCarrying = 0; ///< of the way to the surface
   bool isInterrupted = false;     ///< as the work was spent
-  std::vector<Index> curvesFailedAt; ///< GridMapResult::curvesFailedAt, as vertices of the surface
 
   bool isCarried = false;                  ///< to the surface
   PackedMap packed;                        ///< in place of uv
@@ -92,8 +91,6 @@ struct MapAttempt
 
   /// Of the map on the surface: what keeps it from being valid.
   std::size_t defects() const;
-  /// Connections and cycles that it does not have.
-  std::size_t unmetCurves() const;
   void pack(const Mesh& surface);
   void unpack(const Mesh& surface);
   std::size_t bytes() const;

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/DrawnOnSurface.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Features/FeatureFilter.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/Distance.h"
+#include "Prepare/FlatFlips.h"
 #include "Prepare/Refine.h"
-#include "Requests/CycleSectors.h"
+#include "Requests/DrawnLines.h"
 #include "Requests/InsertPlaces.h"
 
 #include <algorithm>
@@ -49,6 +52,72 @@ void noteAdded(
   {
     notices.push_back(std::to_string(added) +
       " vertices were added to the triangles where constraints lie; the shape stays as it is");
+  }
+}
+
+/// Where a surface is flat beside vertices that were added, edges are flipped: needles at irregular vertices have to be
+/// untangled in the map that is carried to them. before: vertices are older below.
+void flipBeside(PreparedSurface& surface, Index before)
+{
+  const Mesh& mesh = surface.mesh;
+  std::vector<Index> edges;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const auto isNew = [&](Index corner) { return mesh.origin[corner] >= before; };
+    if (!mesh.isConstrained(h) && h < mesh.twin[h] &&
+      (isNew(h) || isNew(Mesh::next(h)) || isNew(Mesh::previous(h)) ||
+        isNew(Mesh::previous(mesh.twin[h]))))
+    {
+      edges.push_back(h);
+    }
+  }
+  FlatFlips flips(surface, edges);
+  flips.flip(edges, [](Index) {});
+  flips.finish();
+}
+
+/// Lines of a kind get their course on the surface. first: of the paths.
+void takeCourses(CurveKind kind, std::vector<std::vector<Vector3>>& paths, std::size_t first,
+  std::vector<CurveRequest>& curves)
+{
+  for (CurveRequest& curve : curves)
+  {
+    if (curve.kind == kind && curve.isDrawn())
+    {
+      curve.points = std::move(paths[first++]);
+    }
+  }
+}
+
+Vector3 nearestOnCurves(const Mesh& mesh, const Vector3& p)
+{
+  Vector3 best = p;
+  double least = kInfinity;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isConstrained(h))
+    {
+      const Vector3 q =
+        nearestOnSegment(p, mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)]);
+      const double squared = (q - p).squaredNorm();
+      best = squared < least ? q : best;
+      least = std::min(least, squared);
+    }
+  }
+  return best;
+}
+
+/// A connection's ends that are to lie on features or boundaries.
+void leadToCurves(const Mesh& mesh, CurveRequest& connection)
+{
+  std::vector<Vector3>& points = connection.points;
+  if ((*connection.ends)[0] == 0)
+  {
+    points.insert(points.begin(), nearestOnCurves(mesh, points.front()));
+  }
+  if ((*connection.ends)[1] == 0)
+  {
+    points.push_back(nearestOnCurves(mesh, points.back()));
   }
 }
 
@@ -109,23 +178,51 @@ void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, do
 void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& drawn,
   double edgeLength, int threads, std::vector<std::string>& notices)
 {
-  const std::vector<FeatureRequest> features = featuresWithCycles(drawn, surface.curves);
-  if (features.empty())
+  if (drawn.empty() && !hasLines(surface.curves))
   {
     return;
   }
   const Index before = surface.mesh.vertexCount();
-  std::vector<std::vector<Vector3>> paths =
-    insertFeatures(surface, features, { edgeLength, threads }, notices);
-  std::size_t next = drawn.size();
+  std::vector<FeatureRequest> features = drawn;
+  addFeatures(surface.curves, CurveKind::Cycle, features);
+  const InsertionOptions options{ edgeLength, threads };
+  std::vector<std::vector<Vector3>> paths = insertFeatures(surface, features, options, notices);
+  takeCourses(CurveKind::Cycle, paths, drawn.size(), surface.curves);
   for (CurveRequest& curve : surface.curves)
   {
-    if (curve.kind == CurveKind::Cycle)
+    if (curve.ends)
     {
-      curve.points = std::move(paths[next++]);
+      leadToCurves(surface.mesh, curve);
     }
   }
+  features.clear();
+  addFeatures(surface.curves, CurveKind::Connection, features);
+  paths = insertFeatures(surface, features, options, notices);
+  takeCourses(CurveKind::Connection, paths, 0, surface.curves);
   noteAdded(surface, before, threads, notices);
+}
+
+std::vector<ValencePlace> withEnds(
+  std::vector<ValencePlace> valences, const std::vector<CurveRequest>& curves, double edgeLength)
+{
+  for (const CurveRequest& curve : curves)
+  {
+    for (std::size_t i = 0; curve.ends && i < 2; ++i)
+    {
+      const Vector3& place = i == 0 ? curve.points.front() : curve.points.back();
+      const int valence = (*curve.ends)[i];
+      if (valence != 0)
+      {
+        eraseIf(valences,
+          [&](const ValencePlace& asked) {
+            return asked.valence == valence &&
+              (asked.place - place).norm() <= kAsAsked * edgeLength;
+          });
+        valences.push_back({ place, valence });
+      }
+    }
+  }
+  return valences;
 }
 
 bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
@@ -146,6 +243,7 @@ bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& val
   {
     return false;
   }
+  flipBeside(surface, before);
   noteAdded(surface, before, threads, notices);
   return true;
 }

@@ -28,6 +28,13 @@ void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, do
 void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& drawn,
   double edgeLength, int threads, std::vector<std::string>& notices);
 
+/// Edge lengths within which a vertex lies where it was asked for: places take a vertex of fine triangles.
+constexpr double kAsAsked = 0.3;
+
+/// Valences that are asked for, and those at the ends of connections; of the same valence at the same place one.
+std::vector<ValencePlace> withEnds(
+  std::vector<ValencePlace> valences, const std::vector<CurveRequest>& curves, double edgeLength);
+
 /// Valences at places, on the triangles as they are to stay. Whether vertices were added to these.
 bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
   double edgeLength, int threads, std::vector<std::string>& notices);

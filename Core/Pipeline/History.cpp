@@ -17,7 +17,6 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
   if (roundIsOver_)
   {
     beforeRound_ = steps_.size();
-    best_ = {};
     roundIsOver_ = false;
   }
   steps_.emplace_back(plan.step);
@@ -29,32 +28,17 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
     ++all_.tries.taken[static_cast<std::size_t>(plan.made.back())];
   }
   last_ = { plan, std::move(map), nullptr };
-  if (!last_.map->status.ok())
-  {
-    return;
-  }
-  replays_ += last_.map->stages.has("replay") ? 1 : 0;
-  const auto faults = [](const MapAttempt& attempt)
-  { return std::pair(attempt.defects(), attempt.unmetCurves()); };
-  if (!best_.map || faults(*last_.map) < faults(*best_.map))
-  {
-    best_ = last_;
-  }
-  else
-  {
-    std::vector<FixedVec2>().swap(last_.map->uv); // nobody asks for it any more
-  }
+  replays_ += hasMap() && last_.map->stages.has("replay") ? 1 : 0;
 }
 
 void History::addQuads(std::shared_ptr<const QuadAttempt> quads)
 {
   roundIsOver_ = true;
-  if (!best_.map || !quads)
+  if (!hasMap() || !quads)
   {
     return;
   }
-  best_.quads = std::move(quads);
-  last_ = best_;
+  last_.quads = std::move(quads);
   take(*last_.quads);
   failedFaces_ = { last_.quads->failedFaces, {} };
   if (last_.quads->status.ok() &&
@@ -73,7 +57,7 @@ void History::take(const AttemptLog& log)
 
 void History::packMaps(const Mesh& surface)
 {
-  for (const Attempt* attempt : { &last_, &best_, &result_ })
+  for (const Attempt* attempt : { &last_, &result_ })
   {
     if (attempt->map)
     {

@@ -13,9 +13,8 @@
 namespace quadrille
 {
 
-/// Attempts come in rounds: maps until one is good or no other would be better, then the quads of the best map. Of the
-/// maps of the surface at most three are held, two of them packed: the last one, the best of the round, and that of the
-/// result so far.
+/// Attempts come in rounds: maps until one holds or no other would, then its quads. Of the maps of the surface at most
+/// two are held, one of them packed: the last one, and that of the result so far.
 class History
 {
 public:
@@ -27,17 +26,13 @@ public:
   }
 
   void addMap(const Plan& plan, std::shared_ptr<MapAttempt> map);
-  /// Of the map ofRound(), or null where it was not carried to the surface; ends the round.
+  /// Of the last map, or null where it has failed; ends the round.
   void addQuads(std::shared_ptr<const QuadAttempt> quads);
   /// Before another map takes its memory.
   void packMaps(const Mesh& surface);
 
   const Attempt& last() const { return last_; }
-  /// The best of the round, that is the one with the fewest defects, or the last one where none was carried to the
-  /// surface.
-  const Attempt& ofRound() const { return best_.map ? best_ : last_; }
-  bool roundHasMap() const { return best_.map != nullptr; }
-  bool lastIsBest() const { return best_.map != nullptr && best_.map == last_.map; }
+  bool hasMap() const { return last_.map != nullptr && last_.map->status.ok(); } ///< the last one
   /// How many attempts of the round were made by this step.
   std::size_t inRound(const std::string& step) const;
 
@@ -76,11 +71,10 @@ public:
   }
 
 private:
-  bool hasSomething() const { return result_.quads != nullptr || roundHasMap(); }
+  bool hasSomething() const { return hasResult() || hasMap(); }
   void take(const AttemptLog& log);
 
-  Attempt last_, best_; ///< of the round
-  Attempt result_;
+  Attempt last_, result_;
   FailedFaces failedFaces_;
   bool roundIsOver_ = true;
   std::size_t beforeRound_ = 0; ///< attempts before this round

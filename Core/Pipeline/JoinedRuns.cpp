@@ -250,10 +250,7 @@ void JoinedRuns::add(const SizedPart& part, RemeshResult made)
   addFailed(part, made.failed);
   for (std::size_t i = 0; i < part.curves.size(); ++i)
   {
-    CurveOutcome& curve = joined_.curves[part.curves[i]];
-    curve = std::move(made.curves[i]);
-    curve.from = shifted(curve.from, joined_.coarse.mesh.vertexCount());
-    curve.to = shifted(curve.to, joined_.coarse.mesh.vertexCount());
+    joined_.curves[part.curves[i]] = std::move(made.curves[i]);
   }
   addMap(made);
   addQuads(made);
@@ -354,6 +351,7 @@ void JoinedRuns::tellUnmet(
     curve.why = why;
     curve.start = curves[i].points.front();
     curve.end = curves[i].points.back();
+    curve.ends = curves[i].ends;
   }
 }
 

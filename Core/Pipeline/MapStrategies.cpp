@@ -91,24 +91,4 @@ std::optional<Plan> moreFreedom(const AttemptFailure& failure)
   return plan;
 }
 
-std::optional<Plan> roomForCurves(const AttemptFailure& failure)
-{
-  const History& history = failure.history;
-  const MapAttempt& map = *history.last().map;
-  if (!history.lastIsBest() || map.curvesFailedAt.empty() ||
-    history.inRound("room for curves") == failure.bound)
-  {
-    return std::nullopt;
-  }
-  RunContext& run = failure.run;
-  Plan plan = history.last().plan;
-  const Hierarchy& levels = run.levels.make(failure.surface, levelOptions(run, plan));
-  const std::size_t before = plan.levels.keptVertices.size();
-  keepAlso(
-    ringsRound(levels.intermediate, map.curvesFailedAt, failure.surface->mesh.vertexCount()), plan);
-  plan.levels.coarseVertices =
-    levels.coarse.mesh.vertexCount() + static_cast<Index>(plan.levels.keptVertices.size() - before);
-  return plan;
-}
-
 } // namespace quadrille

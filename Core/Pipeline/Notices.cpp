@@ -142,4 +142,10 @@ std::string mapNotice(const Mesh& mesh, const Certificate& certificate)
     "number of coarse vertices often help";
 }
 
+std::string stoppedText(const std::string& what)
+{
+  return "stopped on request (" + what +
+    "): these are the best quads so far, others were still being tried";
+}
+
 } // namespace quadrille

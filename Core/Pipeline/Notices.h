@@ -39,4 +39,7 @@ std::string mapNotice(const Mesh& mesh, const Certificate& certificate);
 /// is.
 std::string invertedText(const QuadMesh& quads);
 
+/// Of quads beside which others were still being made. what: see RemeshResult::stopped.
+std::string stoppedText(const std::string& what);
+
 } // namespace quadrille

@@ -5,12 +5,11 @@
 
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
-#include "Evaluation/LinesInQuads.h"
 #include "Pipeline/Estimate.h"
 #include "Pipeline/Notices.h"
 #include "Quads/QuadShape.h"
 #include "Quads/SurfaceShape.h"
-#include "Requests/MeshPaths.h"
+#include "Requests/DrawnLines.h"
 #include "Transfer/Transfer.h"
 
 #include <algorithm>
@@ -193,55 +192,29 @@ std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<F
   return made.quads.quads.size();
 }
 
-/// What connections join is wanted where their lines end: the map has it where it was before points were smoothed.
-std::vector<WantedPlace> wantedEnds(
-  const PreparedSurface& surface, const std::vector<CurveOutcome>& curves, const Level& coarse)
+/// What connections and cycles have become in the quads, edge by edge.
+std::vector<std::vector<Index>> edgesOfCurves(
+  const PreparedSurface& surface, const std::vector<CurveOutcome>& outcomes, const QuadMesh& quads)
 {
-  std::vector<WantedPlace> ends;
-  for (std::size_t i = 0; i < curves.size(); ++i)
+  std::vector<CurveRequest> met;
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
   {
-    const std::vector<Vector3>& points = surface.curves[i].points;
-    for (const auto& [v, place] :
-      { std::pair(curves[i].from, points.front()), std::pair(curves[i].to, points.back()) })
+    if (outcomes[i].met)
     {
-      if (curves[i].met && v != kInvalidIndex)
-      {
-        ends.push_back({ coarse.fineVertex[v], place });
-      }
+      met.push_back(surface.curves[i]);
     }
   }
-  return ends;
-}
-
-/// What connections and cycles have become in the quads.
-std::vector<std::vector<Index>> chainsOfCurves(const PreparedSurface& surface,
-  const std::vector<CurveOutcome>& curves, const QuadMesh& quads, int threads)
-{
-  const NearestQuads nearest(quads);
-  const LinesInQuads lines(quads, nearest);
-  std::vector<std::vector<Index>> chains;
-  for (std::size_t i = 0; i < curves.size(); ++i)
+  const EdgesOfLines lines = edgesOfLines(surface.mesh, met);
+  std::vector<std::vector<Index>> edges;
+  for (const QuadLine& line : quads.lines)
   {
-    if (!curves[i].met)
+    // Those of filled faces know no half-edge.
+    if (line.halfEdge != kInvalidIndex && lines.edges[line.halfEdge] != 0)
     {
-      continue;
-    }
-    const bool isCycle = surface.curves[i].kind == CurveKind::Cycle;
-    std::vector<Vector3> points = surface.curves[i].points;
-    if (isCycle)
-    {
-      points.push_back(points.front());
-    }
-    PlacedConstraint drawn;
-    drawn.kind = isCycle ? ConstraintKind::Cycle : ConstraintKind::Connection;
-    drawn.path = courseOnMesh(surface.mesh, points, threads).points;
-    std::optional<LineInQuads> line = lines.find(drawn);
-    if (line)
-    {
-      chains.push_back(std::move(line->points));
+      edges.push_back({ line.a, line.b });
     }
   }
-  return chains;
+  return edges;
 }
 
 } // namespace
@@ -254,11 +227,10 @@ ExtractionOptions extractionOptions(
   options.maximumNumberOfQuads = run.maximumNumberOfQuads;
   options.threads = run.threads;
   options.fixedVertices = heldIndexVertices(surface);
-  options.wanted = wantedEnds(surface, map.curves, map.coarse);
   if (!map.curves.empty())
   {
-    options.keptChains = [&surface, &map, &run](const QuadMesh& quads)
-    { return chainsOfCurves(surface, map.curves, quads, run.threads); };
+    options.keptChains = [&surface, &map](const QuadMesh& quads)
+    { return edgesOfCurves(surface, map.curves, quads); };
   }
   return options;
 }

@@ -21,9 +21,8 @@ struct Strategy
 };
 
 /// The strategies in the order in which they are asked.
-constexpr std::array<Strategy, 2> kForMaps{ {
+constexpr std::array<Strategy, 1> kForMaps{ {
   { Try::MoreFreedom, 2, moreFreedom },
-  { Try::RoomForCurves, 1, roomForCurves },
 } };
 constexpr std::array<Strategy, 2> kForRounds{ {
   { Try::Counterparts, 1, withCounterparts },
@@ -47,15 +46,11 @@ std::string whyNotGood(const Attempt& attempt)
   {
     return "no valid map of the coarse level";
   }
-  if (attempt.quads && !attempt.quads->status.ok())
+  if (!attempt.quads->status.ok())
   {
     return "no valid quads";
   }
-  if (attempt.quads)
-  {
-    return std::to_string(attempt.quads->invertedQuads) + " quads inverted";
-  }
-  return "curves that are not met";
+  return std::to_string(attempt.quads->invertedQuads) + " quads inverted";
 }
 
 template <typename Strategies>

@@ -24,7 +24,7 @@ void addShared(const Requests& requests, KeyMaker& key)
   key.add(requests.curves.size(), requests.seams.size(), requests.straight.size());
   for (const CurveRequest& curve : requests.curves)
   {
-    key.add(curve.kind, curve.points);
+    key.add(curve.kind, curve.points, curve.ends.value_or(std::array<int, 2>{ -1, -1 }));
   }
   for (const SeamRequest& seam : requests.seams)
   {

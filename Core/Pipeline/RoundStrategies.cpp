@@ -49,7 +49,7 @@ std::string nearText(const std::vector<Vector3>& places)
 /// With the first levels and number of quads.
 Plan fromTheBeginning(const RunContext& run, Plan plan)
 {
-  forget({ Try::MoreFreedom, Try::RoomForCurves, Try::MoreQuads }, plan);
+  forget({ Try::MoreFreedom, Try::MoreQuads }, plan);
   plan.quads = static_cast<double>(run.targetQuads);
   plan.levels = firstLevels(run);
   return plan;

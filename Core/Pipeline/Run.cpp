@@ -7,6 +7,7 @@
 #include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Pipeline/Attempt.h"
+#include "Pipeline/ConnectionEnds.h"
 #include "Pipeline/Division.h"
 #include "Pipeline/DropSteps.h"
 #include "Pipeline/EnterFrame.h"
@@ -72,14 +73,14 @@ std::string triedText(const Plan& plan, const History& history)
       (plan.why.empty() ? "" : " (" + plan.why + ")");
 }
 
-/// The quads of the best map of a round.
+/// The quads of the last map of a round.
 void makeQuadsOfRound(RunContext& run, History& history)
 {
-  const Attempt& best = history.ofRound();
-  const PlannedSurface surface = withPlan(run.surface, best.plan);
-  history.addQuads(!history.roundHasMap() ? nullptr
-      : run.options.preview               ? makePreview(run, surface, best.plan, *best.map)
-                                          : makeQuads(run, surface, best.plan, *best.map));
+  const Attempt& last = history.last();
+  const PlannedSurface surface = withPlan(run.surface, last.plan);
+  history.addQuads(!history.hasMap() ? nullptr
+      : run.options.preview          ? makePreview(run, surface, last.plan, *last.map)
+                                     : makeQuads(run, surface, last.plan, *last.map));
 }
 
 /// Whether what has no quads is made in parts: components, or faces between features.
@@ -89,15 +90,13 @@ bool isLeftToParts(const SizedSurface& sized, const RemeshOptions& options, cons
     (keepsFeatures(*sized.surface) && isCutAtFaces(*sized.surface, options, history));
 }
 
-/// Rounds of attempts until one is good or nothing is left to try: maps until one is good or no other would be better,
-/// then the quads of the best one. isLast: where no attempt has quads, nothing follows. Where the surface is divided
+/// Rounds of attempts until one is good or nothing is left to try: maps until one holds or nothing is left to try, then
+/// its quads. isLast: where no attempt has quads, nothing follows. Where the surface is divided
 /// after a failure, the first one is the end.
-/// After a stop result.stopped tells what was tried, and the quads so far are the result, or those of a map that is
-/// there already; throws Cancelled without any.
+/// After a stop result.stopped tells what was tried, and the quads so far are the result; throws Cancelled without any.
 void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> plan, bool isLast,
   History& history, RemeshResult& result)
 {
-  bool makesQuads = false; // a stop meanwhile may leave the map half solved
   try
   {
     const auto next = [&]
@@ -124,27 +123,16 @@ void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> 
         history.packMaps(run.surface->mesh);
         history.addMap(*plan, makeMap(run, *plan, history.allowance()));
       }
-      makesQuads = true;
       makeQuadsOfRound(run, history);
-      makesQuads = false;
     }
   }
   catch (const Cancelled&)
   {
-    if (!history.hasResult() && (!history.roundHasMap() || makesQuads))
+    if (!history.hasResult())
     {
       throw;
     }
     result.stopped = run.tried->empty() ? "attempt 1" : *run.tried;
-    if (!history.hasResult())
-    {
-      makeQuadsOfRound(run, history);
-    }
-    if (!history.hasResult())
-    {
-      result.stopped.clear();
-      throw;
-    }
   }
   result.attempts.insert(result.attempts.end(), history.steps().begin(), history.steps().end());
 }
@@ -448,7 +436,7 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   }
 }
 
-RemeshResult remeshInput(
+RemeshResult remeshOnce(
   SurfaceInput& input, const RemeshOptions& given, ResultStore* store, bool quadsAlone)
 {
   const auto run =
@@ -468,6 +456,16 @@ RemeshResult remeshInput(
     }
   };
   return guardedRun(input, given, store, run);
+}
+
+RemeshResult remeshInput(
+  SurfaceInput& input, const RemeshOptions& given, ResultStore* store, bool quadsAlone)
+{
+  return remeshWithEnds(
+    input, given,
+    [&](SurfaceInput asked, const RemeshOptions& options)
+    { return remeshOnce(asked, options, store, quadsAlone); },
+    [](RemeshResult& made) -> RemeshResult& { return made; });
 }
 
 } // namespace

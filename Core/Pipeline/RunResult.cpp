@@ -108,9 +108,7 @@ void tellEnd(const History& history, bool isFinished, RemeshResult& result)
   const std::string those = inverted.empty() ? "" : "; " + inverted;
   if (!result.stopped.empty())
   {
-    tell({ "stopped on request (" + result.stopped +
-           "): these are the best quads so far, others were still being tried" + those },
-      result.notices);
+    tell({ stoppedText(result.stopped) + those }, result.notices);
   }
   else if (history.isSpent() && !inverted.empty())
   {

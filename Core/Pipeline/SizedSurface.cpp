@@ -19,7 +19,7 @@
 #include "Prepare/Prepare.h"
 #include "Prepare/Refine.h"
 #include "Prepare/RepairText.h"
-#include "Requests/CycleSectors.h"
+#include "Requests/DrawnLines.h"
 #include "Requests/Guides.h"
 #include "Requests/HeldVertices.h"
 #include "Sizes/CurvatureGuides.h"
@@ -283,7 +283,7 @@ SizedSurface finished(
 void addFeatures(const DrawnRequests& drawn, const RemeshOptions& options, PreparedSurface& surface,
   SizedSurface& sized)
 {
-  const bool draws = !drawn.features.empty() || hasCycles(surface.curves);
+  const bool draws = !drawn.features.empty() || hasLines(surface.curves);
   if (!draws && drawn.cleared.empty())
   {
     return;
@@ -300,11 +300,12 @@ void addFeatures(const DrawnRequests& drawn, const RemeshOptions& options, Prepa
   sized.stages.add("draw", secondsNow() - start, before, surface.mesh.faceCount());
 }
 
-/// Valences at places, on the sized surface.
+/// Valences at places and at the ends of connections, on the sized surface.
 void addValences(const std::vector<ValencePlace>& valences, const RemeshOptions& options,
   PreparedSurface& surface, SizedSurface& sized)
 {
-  if (drawValences(surface, valences, sized.edgeLength, options.threads, sized.notices))
+  if (drawValences(surface, withEnds(valences, surface.curves, sized.edgeLength), sized.edgeLength,
+        options.threads, sized.notices))
   {
     sized.key = KeyMaker(sized.key).add(surface.hash).key();
   }

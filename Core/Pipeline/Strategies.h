@@ -36,11 +36,6 @@ struct AttemptFailure
 /// twice as many. Where faces can be filled instead, once, and for a few vertices. Bound: times in a round.
 std::optional<Plan> moreFreedom(const AttemptFailure& failure);
 
-/// Where a map was made by leaving curves out, vertices round the places where it could not be made with them are kept
-/// on the coarse level.
-/// Bound: times in a round.
-std::optional<Plan> roomForCurves(const AttemptFailure& failure);
-
 // For another round.
 
 /// Irregular vertices that were asked for near the places of a failure get counterparts (see Requests/Counterparts.h).

@@ -9,7 +9,6 @@
 #include "Quads/QuadShape.h"
 
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace quadrille
@@ -41,7 +40,6 @@ public:
     : quads_(quads), options_(options), moves_(mesh, quads, options.fixedVertices),
       incident_(moves_.incidentQuads())
   {
-    findWanted();
     colour();
     findGuides();
   }
@@ -52,7 +50,7 @@ public:
     for (int step = 0; step < options_.steps; ++step)
     {
       report(options_.progress, static_cast<double>(step) / options_.steps, "smoothing");
-      const std::size_t moves = goOn(1.0 / (options_.steps - step)) + sweep();
+      const std::size_t moves = sweep();
       result.moves += moves;
       if (moves == 0)
       {
@@ -84,45 +82,6 @@ private:
     Vector3 position;
     Quality quality;
   };
-
-  /// Points that may move, on the vertices whose points are wanted elsewhere.
-  void findWanted()
-  {
-    for (Index p = 0; p < quads_.points.size() && !options_.wanted.empty(); ++p)
-    {
-      const std::optional<Index> corner = meshCorner(quads_, p);
-      const auto found = std::find_if(options_.wanted.begin(), options_.wanted.end(),
-        [&](const WantedPlace& wanted)
-        { return corner && moves_.mesh().origin[*corner] == wanted.vertex; });
-      if (found != options_.wanted.end() && moves_.freedom(p) > QuadMoves::Freedom::Fixed)
-      {
-        wanted_.emplace(p, found->place);
-      }
-    }
-  }
-
-  /// So much of the ways to wanted places, the neighbours following in the sweeps between. Returns how many moved.
-  std::size_t goOn(double share)
-  {
-    std::size_t moved = 0;
-    for (const auto& [p, wanted] : wanted_)
-    {
-      const double least = std::min(kShapeAsAsked, qualityAt(p, quads_.points[p]).worst);
-      for (const double part : { 1.0, 0.5, 0.25 })
-      {
-        const Vector3 way = part * share * (wanted - quads_.points[p]);
-        const std::optional<SurfacePoint> place = moves_.target(p, way);
-        const Vector3 position = place ? positionOf(moves_.mesh(), *place) : Vector3::Zero();
-        if (place && qualityAt(p, position).worst >= least)
-        {
-          moves_.move(p, *place, position);
-          moved += way.isZero(0) ? 0 : 1;
-          break;
-        }
-      }
-    }
-    return moved;
-  }
 
   /// A point of a curve slides for the sake of shape only where the curve goes straight on in the quad mesh.
   bool mayMove(Index p) const
@@ -160,7 +119,7 @@ private:
         classes_.emplace_back();
       }
       colourOf[p] = c;
-      if (moves_.freedom(p) > QuadMoves::Freedom::Fixed && wanted_.count(p) == 0)
+      if (moves_.freedom(p) > QuadMoves::Freedom::Fixed)
       {
         classes_[c].push_back(p);
       }
@@ -432,7 +391,6 @@ private:
   const SmoothingOptions& options_;
   QuadMoves moves_;
   const PointLists& incident_;              ///< per point its quads
-  std::map<Index, Vector3> wanted_;         ///< places of points
   std::vector<std::vector<Index>> classes_; ///< movable points per colour
   std::vector<const Guide*> guideOf_; ///< per point, null: none; empty where nothing is guided
 };

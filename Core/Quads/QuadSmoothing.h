@@ -11,21 +11,12 @@
 namespace quadrille
 {
 
-/// Where the point on a vertex of the mesh is wanted.
-struct WantedPlace
-{
-  Index vertex = kInvalidIndex;
-  Vector3 place = Vector3::Zero(); ///< on or near the mesh
-};
-
 struct SmoothingOptions
 {
   int steps = 5; ///< sweeps over all points, >= 0
   int threads = 0;
   ProgressCallback progress;
   std::vector<Index> fixedVertices; ///< of the mesh, ascending; points on them stay
-  /// These points go there bit by bit, and stay short of it where a scaled Jacobian at them would fall below 0.3.
-  std::vector<WantedPlace> wanted;
   /// Of faces of the mesh, ascending: points there do not turn their edges off these directions for the sake of shape.
   std::vector<FaceGuide> guides;
   /// Points whose quads all have a scaled Jacobian above this stay, in (0, 1]: moves for the sake

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Curves that a user draws where lines of the quads' edges should run [Ebke et al. 2016, Section 4: layout
-/// constraints]. The course of a curve says which way round irregular vertices, handles and holes the line goes; it is
-/// straight in the map, so it follows the curve only about.
+/// constraints].
 #pragma once
 
 #include "Mesh/Requests.h"

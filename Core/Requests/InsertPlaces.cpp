@@ -604,7 +604,8 @@ InsertedValences insertValences(PreparedSurface& surface, const std::vector<Vale
     {
       const bool mayDrift =
         valences[i].mayDrift && (found == byVertex.end() || found->second.mayDrift);
-      byVertex[v] = { v, valences[i].valence, kInvalidIndex, mayDrift };
+      const Index point = found == byVertex.end() ? kInvalidIndex : found->second.point;
+      byVertex[v] = { v, valences[i].valence, point, mayDrift };
     }
   }
   surface.valenceRequests.clear();

@@ -65,6 +65,7 @@ public:
       }
     }
     setValences();
+    setJoined();
     setEdits();
     return std::move(composed_);
   }
@@ -373,6 +374,23 @@ private:
     {
       input.held.insert(input.held.end(), list_.onFeatures().begin(), list_.onFeatures().end());
       input.regularOnFeatures = true;
+    }
+  }
+
+  /// Connections that operations have found there stay what they are: their ends are in no list of irregular vertices.
+  void setJoined()
+  {
+    for (const JoinedEnds& joined : list_.joined())
+    {
+      for (std::size_t i = 0; i < constraints_.size(); ++i)
+      {
+        const std::optional<std::size_t>& curve = composed_.parts[i].curve;
+        if (constraints_[i]->id == joined.id && curve)
+        {
+          composed_.input.curves[*curve].setEnds(
+            joined.start, joined.end, { joined.startValence, joined.endValence });
+        }
+      }
     }
   }
 

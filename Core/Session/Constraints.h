@@ -105,6 +105,14 @@ enum class IrregularOperation
   Add     ///< two come to points[0] and points[1], of opposite indices
 };
 
+/// What a connection joins.
+struct JoinedEnds
+{
+  int id = 0; ///< of the connection
+  Vector3 start = Vector3::Zero(), end = Vector3::Zero();
+  int startValence = 0, endValence = 0; ///< 0: a feature or boundary
+};
+
 /// An operation on the irregular vertices of the quads. All others stay. The sum of indices (4 - valence) stays the
 /// same.
 struct IrregularEdit
@@ -140,6 +148,7 @@ struct IrregularEdit
   /// All irregular points that the quads had then, see irregularPoints: what a user saw. Files of version 1 have none.
   std::vector<IrregularVertex> shown = {};
   std::vector<Vector3> withoutMap = {}; ///< FixedPlaces::insideOfFaces then
+  std::vector<JoinedEnds> joined = {};  ///< by the connections that were in force then
 };
 
 /// A chain of edges of quads, straight in the map, that joins two irregular vertices, features or boundaries.

@@ -489,6 +489,7 @@ std::string IrregularList::apply(int id, int revision, const IrregularEdit& edit
   {
     onFeatures_ = edit.onFeatures;
     withoutMap_ = edit.withoutMap;
+    joined_ = edit.joined;
   }
   links_.push_back({ id, revision, edit.changes });
   isInForce_ = true;

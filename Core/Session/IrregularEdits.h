@@ -94,6 +94,8 @@ public:
   const std::vector<HeldVertex>& onFeatures() const { return onFeatures_; }
   /// A point of each face that has no map, of the same.
   const std::vector<Vector3>& withoutMap() const { return withoutMap_; }
+  /// What connections join, of the same.
+  const std::vector<JoinedEnds>& joined() const { return joined_; }
   /// The points of the quads that are irregular then, see IrregularEdit::shown; none: not known.
   const std::optional<std::vector<IrregularVertex>>& shown() const { return shown_; }
   /// The operation in force that changed the place last; 0: none.
@@ -107,6 +109,7 @@ private:
   std::map<Vector3, int, PlaceOrder> changedBy_;
   std::vector<HeldVertex> onFeatures_;
   std::vector<Vector3> withoutMap_;
+  std::vector<JoinedEnds> joined_;
   std::optional<std::vector<IrregularVertex>> shown_;
   std::vector<IrregularEdit::Link> links_;
 };

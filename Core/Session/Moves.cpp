@@ -63,8 +63,9 @@ struct QuadsBefore
   std::vector<IrregularVertex> points;    ///< all irregular points of the quads
   FixedPlaces fixed;
   std::vector<HeldVertex> onFeatures;
-  double edgeLength = 0;        ///< that was asked for
-  std::size_t withoutQuads = 0; ///< connected components
+  std::vector<CurveOutcome> curves; ///< of the surface's
+  double edgeLength = 0;            ///< that was asked for
+  std::size_t withoutQuads = 0;     ///< connected components
 };
 
 QuadsBefore quadsBefore(const SurfaceInput& surface, const RemeshResult& without, int threads)
@@ -76,14 +77,15 @@ QuadsBefore quadsBefore(const SurfaceInput& surface, const RemeshResult& without
   ShownPlaces shown = shownPlaces(irregular, without.quads);
   return { std::move(irregular), std::move(shown), irregularPoints(without.quads),
     fixedPlaces(made, onCurves, without.withoutMap), featureVertices(made, without.onFeatures),
-    without.targetEdgeLength, without.failed.components };
+    without.curves, without.targetEdgeLength, without.failed.components };
 }
 
 std::size_t bytesOfQuadsBefore(const QuadsBefore& before)
 {
   return sizeof(before) + bytesOf(before.irregular) +
     before.shown.size() * sizeof(ShownPlaces::value_type) + bytesOf(before.points) +
-    bytesOf(before.fixed.edges) + bytesOf(before.fixed.withoutMap) + bytesOf(before.onFeatures);
+    bytesOf(before.fixed.edges) + bytesOf(before.fixed.withoutMap) + bytesOf(before.onFeatures) +
+    bytesOf(before.curves);
 }
 
 /// Moves as the operations of a session, resolved one after the other.
@@ -219,6 +221,19 @@ void tellIrregular(const std::optional<std::vector<IrregularVertex>>& shown,
   }
 }
 
+/// Connections stay what they are: their ends are in no list of irregular vertices.
+SurfaceInput withEnds(SurfaceInput input, const std::vector<CurveOutcome>& curves)
+{
+  for (std::size_t i = 0; i < input.curves.size() && i < curves.size(); ++i)
+  {
+    if (curves[i].ends)
+    {
+      input.curves[i].setEnds(curves[i].start, curves[i].end, *curves[i].ends);
+    }
+  }
+  return input;
+}
+
 UncutResult makeMoves(const SurfaceInput& input, const RemeshOptions& options, const RemeshRun& run,
   const PlacesOfSession& where, const QuadsBefore& before, std::vector<PlacedConstraint>& placed,
   std::vector<std::string>& notices)
@@ -307,7 +322,7 @@ UncutResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& opti
   std::optional<InputPlaces> made;
   const InputPlaces& places =
     known.places != nullptr ? *known.places : made.emplace(input, options.threads);
-  return makeMoves(input, options, run,
+  return makeMoves(withEnds(input, before->curves), options, run,
     { places.places, places.paths, kOnePlace * before->edgeLength }, *before, placed, notices);
 }
 

@@ -139,7 +139,7 @@ std::size_t SessionResult::bytes() const
     bytesOf(quads.sourceWeights) + bytesOf(quads.quadSourceFace) +
     bytesOf(quads.quadSourceWeights) + bytesOf(quads.valence) + bytesOf(quads.onBoundary) +
     bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixed.edges) + bytesOf(fixed.withoutMap) +
-    bytesOf(fixed.insideOfFaces) + bytesOf(onFeatures) + bytesOf(mirrorPoint) +
+    bytesOf(fixed.insideOfFaces) + bytesOf(onFeatures) + bytesOf(joined) + bytesOf(mirrorPoint) +
     bytesOf(rotatedPoint) + sizeof(*this);
 }
 
@@ -374,6 +374,7 @@ int Session::add(ConstraintContent content)
     edit->upon = data_->linksInForce();
     edit->onFeatures = now->onFeatures;
     edit->withoutMap = now->fixed.insideOfFaces;
+    edit->joined = now->joined;
     edit->shown = irregularPoints(now->quads);
   }
   auto next = std::make_shared<SessionState>(data_->next());
@@ -406,6 +407,7 @@ void Session::edit(int id, ConstraintContent content)
     edit->upon = made.upon;
     edit->onFeatures = made.onFeatures;
     edit->withoutMap = made.withoutMap;
+    edit->joined = made.joined;
     edit->shown = made.shown;
   }
   *found = std::make_shared<const SessionConstraint>(std::move(constraint));

@@ -62,6 +62,7 @@ struct SessionResult
   std::vector<IrregularVertex> irregular; ///< in the order of places
   FixedPlaces fixed;
   std::vector<HeldVertex> onFeatures; ///< ends, corners and bends of these, ascending by point
+  std::vector<JoinedEnds> joined;     ///< by the connections that have a line
   double targetEdgeLength = 0;
   std::size_t targetQuads = 0;
   std::vector<Index> mirrorPoint;  ///< per point of symmetric quads: its mirror image; else empty

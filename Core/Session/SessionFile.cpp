@@ -104,6 +104,12 @@ void checkResolved(const IrregularEdit& edit, const std::string& name, std::size
       require(vertex.place, std::clamp(vertex.valence, kLeastValence, kMostValence));
     }
   }
+  for (const JoinedEnds& joined : edit.joined)
+  {
+    // 0: a feature or boundary.
+    require(joined.start, joined.startValence == 0 ? kRegularValence : joined.startValence);
+    require(joined.end, joined.endValence == 0 ? kRegularValence : joined.endValence);
+  }
   for (const Vector3& place : edit.withoutMap)
   {
     require(place, kRegularValence);

@@ -141,6 +141,14 @@ constexpr auto kHeldFields = [](auto& fields, auto& held)
   fields.need("place", held.place);
   fields.needEach("sectors", held.sectors, kSectorFields);
 };
+constexpr auto kJoinedFields = [](auto& fields, auto& joined)
+{
+  fields.need("id", joined.id);
+  fields.need("start", joined.start);
+  fields.need("end", joined.end);
+  fields.need("start_valence", joined.startValence);
+  fields.need("end_valence", joined.endValence);
+};
 /// What the session has made of an irregular operation.
 constexpr auto kResolvedFields = [](auto& fields, auto& edit)
 {
@@ -150,6 +158,7 @@ constexpr auto kResolvedFields = [](auto& fields, auto& edit)
   fields.mayEach("on_features", edit.onFeatures, kHeldFields); // files of before have none
   fields.mayEach("shown", edit.shown, kVertexFields);
   fields.may("without_map", edit.withoutMap);
+  fields.mayEach("joined", edit.joined, kJoinedFields);
 };
 
 } // namespace

@@ -201,6 +201,22 @@ private:
         composed_.input.drawn.valences, kTakenVertex * made.targetEdgeLength);
       result.fixed = fixedPlaces(surface, *onCurves, made.withoutMap);
       result.onFeatures = featureVertices(surface, made.onFeatures);
+      takeJoined(made, result);
+    }
+  }
+
+  void takeJoined(const RemeshResult& made, SessionResult& result) const
+  {
+    for (std::size_t i = 0; i < state_.constraints.size(); ++i)
+    {
+      const std::optional<std::size_t>& curve = composed_.parts[i].curve;
+      const CurveOutcome* outcome = curve ? &made.curves[*curve] : nullptr;
+      if (outcome != nullptr && outcome->ends)
+      {
+        const auto& [start, end] = *outcome->ends;
+        result.joined.push_back(
+          { state_.constraints[i]->id, outcome->start, outcome->end, start, end });
+      }
     }
   }
 

@@ -3,7 +3,7 @@
 /// What a user asks of a surface, asked of one of the parts that an isometry and its powers make it of.
 #pragma once
 
-#include "Integers/CurveIsolines.h"
+#include "Mesh/Requests.h"
 #include "Symmetry/ImageFit.h"
 #include "Symmetry/PlaneCut.h"
 

@@ -137,8 +137,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         or a vtkPolyData with lines and, if some are no features, the cell array ConstraintType (0 feature, 1 stroke,
         2 connection, 3 cycle), and vertices of which it says 6 (cleared) or 7 (size: GuidingRadius, SizeFactor).
     strokes: a list of polylines along which quads should run.
-    connections: a list of polylines from one irregular vertex to another, or to a feature or boundary, that a straight
-        chain of edges is to join; the course says which way round others it goes.
+    connections: a list of polylines from one irregular vertex to another, or to a feature or boundary, along
+        which a straight chain of edges is to join the two. The quads without them are made first.
     cycles: a list of closed polylines along which a chain of edges is to close.
     cleared: n by 3: the feature curve nearest to each point, within half an edge length, is none; also one that
         feature_edges or patch_ids ask for.

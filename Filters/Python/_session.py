@@ -213,7 +213,7 @@ class Session:
 
     def connect(self, start, end=None, *, edit=None):
         """A straight chain of edges joins what is nearest to two places, irregular vertices, features or boundaries;
-        or to the ends of a polyline, whose course says which way round."""
+        or to the ends of a polyline, along it."""
         points = self._line("start", start) if end is None else [self._place("start", start), self._place("end", end)]
         return self._add({"kind": "connection", "points": points}, edit)
 

@@ -19,13 +19,11 @@ STEP = 0.1
 PLACE = 0.3
 #: Edge lengths of the quads there within which other irregular vertices are where they were, as the guide has it.
 OTHERS = 2
-#: Edge lengths of the quads there within which a connection ends where its line does, as the guide has it.
-ENDS = 1
-#: Mean edge lengths by which the chain of a connection and its course may differ, as the guide has it; loops are looked
-#: for within as many.
+#: Mean edge lengths by which the chain of a connection or loop and its course may differ, and edge lengths of the quads
+#: there within which a connection ends where its line does, as the guide has it.
+LINE = 0.5
+#: Mean edge lengths within which chains are looked for, to tell by how much they are off.
 REACH = 6
-#: The same of a loop that is where it was drawn.
-LOOP = 0.5
 #: Closed chains longer than so many times the course go round more than once.
 LONGEST_LOOP = 1.9
 #: Degrees between edges along a feature line and its course.
@@ -556,8 +554,9 @@ def apart(quads, chain, course, closed=False):
 
 
 def judge_connection(surface, quads, course):
-    """A straight chain between vertices that are irregular, on a feature or on the boundary, each within ENDS of its
-    end; of several the one that stays nearest to the course. The deviation is how far the two are apart."""
+    """A straight chain between vertices that are irregular, on a feature or on the boundary, each within LINE of its
+    end, that stays within LINE of the course; of several the nearest one. The deviation is how far the two are
+    apart."""
     start, end = course.line[0], course.line[-1]
     holds = quads.boundary | (quads.valence != 4)
     near = numpy.flatnonzero(numpy.minimum(numpy.linalg.norm(quads.points - start, axis=1),
@@ -573,15 +572,15 @@ def judge_connection(surface, quads, course):
             for k in [k for k in range(1, len(chain)) if holds[chain[k]] and off[1][chain[k]] <= 3]:
                 far = apart(quads, chain[:k + 1], course)
                 ends = max(off[0][point], off[1][chain[k]])
-                if far <= REACH and (best is None or (ends > ENDS, far) < (best[0] > ENDS, best[1])):
+                if far <= REACH and (best is None or (ends > LINE, far) < (best[0] > LINE, best[1])):
                     best = ends, far
     if best is None:
         return Verdict(False, math.inf, "no straight chain between vertices within 3 edges of both ends")
-    return Verdict(best[0] <= ENDS, best[1], f"ends off by {best[0]:.2f} edges")
+    return Verdict(best[0] <= LINE and best[1] <= LINE, best[1], f"ends off by {best[0]:.2f} edges")
 
 
 def judge_cycle(quads, course):
-    """A closed straight chain within LOOP of the course, once round; the deviation is how far the two are apart."""
+    """A closed straight chain within LINE of the course, once round; the deviation is how far the two are apart."""
     edge = quads.mean_edge
     inside = course.distance(quads.points) <= REACH * edge
     starts = numpy.flatnonzero(numpy.linalg.norm(quads.points - course.line[0], axis=1) <= REACH * edge)
@@ -589,7 +588,7 @@ def judge_cycle(quads, course):
     for chain in quads.loops(starts, inside):
         if length_of(quads.points[chain + chain[:1]]) <= LONGEST_LOOP * course.length:
             best = min(best, apart(quads, chain, course, closed=True))
-    return Verdict(best <= LOOP, best)
+    return Verdict(best <= LINE, best)
 
 
 def judge_feature(quads, course):

@@ -13,11 +13,10 @@ namespace quadrille::test
 {
 
 /// A sphere with connections that all cross each other at its pole, where quads have edges in two directions only: of
-/// some 100 quads no map has all of them, with whatever vertices.
-inline SurfaceInput sphereWithoutRoom()
+/// some 100 quads no map has all of them while the other irregular vertices stay. angle: from the pole to the ends.
+inline SurfaceInput sphereWithoutRoom(double angle = 0.85)
 {
-  constexpr int kConnections = 5;
-  constexpr double kAngle = 0.7; // from the pole to the ends
+  constexpr int kConnections = 3;
   SurfaceInput input = test::toInput(test::sphere(3));
   for (int k = 0; k < kConnections; ++k)
   {
@@ -25,8 +24,8 @@ inline SurfaceInput sphereWithoutRoom()
     for (const double side : { -1.0, 1.0 })
     {
       const double around = M_PI * k / kConnections;
-      const Vector3 end(side * std::sin(kAngle) * std::cos(around),
-        side * std::sin(kAngle) * std::sin(around), std::cos(kAngle));
+      const Vector3 end(side * std::sin(angle) * std::cos(around),
+        side * std::sin(angle) * std::sin(around), std::cos(angle));
       connection.points.push_back(*std::min_element(input.points.begin(), input.points.end(),
         [&](const Vector3& a, const Vector3& b)
         { return (a - end).squaredNorm() < (b - end).squaredNorm(); }));

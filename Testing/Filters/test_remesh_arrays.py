@@ -64,9 +64,10 @@ def hexahedra():
     return grid
 
 
-def sphere_without_room(count=8, angle=0.85):
+def sphere_without_room(count=3, angle=0.85):
     """Points and faces of a sphere, and connections that all cross each other at its pole, where quads have edges in
-    two directions only: of some 80 quads no map has all of them. angle: from the pole to their ends."""
+    two directions only: of some 80 quads no map has all of them while other irregular vertices stay. angle: from the
+    pole to their ends."""
     source = vtkPlatonicSolidSource()
     source.SetSolidTypeToIcosahedron()
     finer = vtkLinearSubdivisionFilter()

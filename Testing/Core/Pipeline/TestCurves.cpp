@@ -81,8 +81,8 @@ std::vector<std::pair<Index, Index>> pairsToJoin(const QuadMesh& quads, std::siz
   return pairs;
 }
 
-/// A twentieth of an edge length.
-constexpr double kNearPlace = 0.006;
+/// A sixth of an edge length.
+constexpr double kNearPlace = 0.02;
 
 TEST(Curves, AConnectionIsAStraightChainOfEdges)
 {

@@ -45,74 +45,33 @@ StageRecord recordOf(const StageRecords& stages, const std::string& name)
   return found;
 }
 
-TEST(History, TheMapWithTheFewestDefectsOfARoundCounts)
+TEST(History, TheLastMapOfARoundCounts)
 {
   History history;
-  const auto first = carriedMap(5), second = carriedMap(3), equal = carriedMap(3),
-             worse = carriedMap(4);
-  history.addMap(planOf("first"), first);
-  EXPECT_EQ(history.ofRound().map, first);
-  EXPECT_TRUE(history.lastIsBest());
-  history.addMap(planOf("room for curves"), second);
-  EXPECT_EQ(history.ofRound().map, second);
-  EXPECT_TRUE(history.lastIsBest());
-  for (const auto& later : { equal, worse })
-  {
-    history.addMap(planOf("room for curves"), later);
-    EXPECT_EQ(history.ofRound().map, second);
-    EXPECT_EQ(history.last().map, later);
-    EXPECT_FALSE(history.lastIsBest());
-  }
-}
-
-TEST(History, TurnsAndSeamsAreDefectsToo)
-{
-  History history;
-  const auto first = carriedMap(0), second = carriedMap(0), third = carriedMap(2);
-  first->certificate.wrongTurns = 4;
-  second->certificate.seamResiduals = 3;
-  for (const auto& map : { first, second, third })
-  {
-    history.addMap(planOf("first"), map);
-    EXPECT_EQ(history.ofRound().map, map);
-  }
-}
-
-TEST(History, ACoarseFailureDoesNotTakeThePlaceOfAMap)
-{
-  History history;
-  const auto failed = failedMap(), carried = carriedMap(5), later = failedMap();
+  const auto failed = failedMap(), carried = carriedMap(5);
   history.addMap(planOf("first"), failed);
-  EXPECT_FALSE(history.roundHasMap());
-  EXPECT_FALSE(history.lastIsBest());
-  EXPECT_EQ(history.ofRound().map, failed); // there is no better one
+  EXPECT_FALSE(history.hasMap());
+  EXPECT_EQ(history.last().map, failed);
   history.addMap(planOf("more freedom"), carried);
-  EXPECT_TRUE(history.lastIsBest());
-  history.addMap(planOf("room for curves"), later);
-  EXPECT_TRUE(history.roundHasMap());
-  EXPECT_FALSE(history.lastIsBest());
-  EXPECT_EQ(history.ofRound().map, carried);
-  EXPECT_EQ(history.last().map, later);
+  EXPECT_TRUE(history.hasMap());
+  EXPECT_EQ(history.last().map, carried);
 }
 
-TEST(History, QuadsBelongToTheBestMapAndEndTheRound)
+TEST(History, QuadsBelongToTheLastMapAndEndTheRound)
 {
   History history;
-  const auto best = carriedMap(1), worse = carriedMap(4), other = carriedMap(9);
+  const auto first = carriedMap(1), other = carriedMap(9);
   const auto quads = quadsWith(1);
-  history.addMap(planOf("first"), best);
-  history.addMap(planOf("room for curves"), worse);
+  history.addMap(planOf("first"), first);
   history.addQuads(quads);
-  EXPECT_EQ(history.last().map, best);
+  EXPECT_EQ(history.last().map, first);
   EXPECT_STREQ(history.last().plan.step, "first");
   EXPECT_EQ(history.last().quads, quads);
-  EXPECT_EQ(history.ofRound().quads, quads);
-  EXPECT_EQ(history.result().map, best);
-  // A map of the next round is measured by itself.
+  EXPECT_EQ(history.result().map, first);
   history.addMap(planOf("counterparts"), other);
-  EXPECT_EQ(history.ofRound().map, other);
-  EXPECT_EQ(history.ofRound().quads, nullptr);
-  EXPECT_EQ(history.result().map, best);
+  EXPECT_EQ(history.last().map, other);
+  EXPECT_EQ(history.last().quads, nullptr);
+  EXPECT_EQ(history.result().map, first);
 }
 
 TEST(History, ARoundWithoutMapHasNoneAtItsEndEither)
@@ -120,10 +79,9 @@ TEST(History, ARoundWithoutMapHasNoneAtItsEndEither)
   History history;
   const auto failed = failedMap();
   addRound(history, planOf("first"), failed, nullptr);
-  EXPECT_FALSE(history.roundHasMap());
-  EXPECT_FALSE(history.lastIsBest());
+  EXPECT_FALSE(history.hasMap());
   EXPECT_FALSE(history.hasResult());
-  EXPECT_EQ(history.ofRound().map, failed);
+  EXPECT_EQ(history.last().map, failed);
   EXPECT_EQ(history.result().map, failed);
 }
 
@@ -175,15 +133,15 @@ TEST(History, StepsAreThoseOfTheRound)
 {
   History history;
   history.addMap(planOf("more freedom"), failedMap({ 1, 2, 3 }));
-  history.addMap(planOf("room for curves"), carriedMap(1));
-  history.addMap(planOf("more freedom"), failedMap());
+  history.addMap(planOf("more freedom"), carriedMap(1));
+  history.addMap(planOf("counterparts"), failedMap());
   EXPECT_EQ(history.inRound("more freedom"), 2U);
-  EXPECT_EQ(history.inRound("room for curves"), 1U);
+  EXPECT_EQ(history.inRound("counterparts"), 1U);
   EXPECT_EQ(history.inRound("first"), 0U);
   history.addQuads(quadsWith(1));
   history.addMap(planOf("more freedom"), failedMap());
   EXPECT_EQ(history.inRound("more freedom"), 1U);
-  EXPECT_EQ(history.inRound("room for curves"), 0U);
+  EXPECT_EQ(history.inRound("counterparts"), 0U);
 }
 
 WorkBound boundOf(std::size_t work)
@@ -358,18 +316,15 @@ TEST(History, PackedMapsKeepTheirUv)
 {
   const Mesh mesh = test::gridPlane(3, 2);
   History history;
-  const auto ofResult = carriedMap(4), best = carriedMap(2), last = carriedMap(3);
+  const auto ofResult = carriedMap(4), last = carriedMap(2);
   ofResult->uv = cutMap(mesh, 10);
-  best->uv = cutMap(mesh, 20);
-  last->uv = cutMap(mesh, 30);
+  last->uv = cutMap(mesh, 20);
   addRound(history, planOf("first"), ofResult, quadsWith(2));
-  history.addMap(planOf("counterparts"), best);
-  EXPECT_EQ(best->uv.size(), mesh.halfEdgeCount()); // its quads may come next
-  history.addMap(planOf("room for curves"), last);
-  EXPECT_TRUE(last->uv.empty()); // it will have none
+  history.addMap(planOf("counterparts"), last);
+  EXPECT_EQ(last->uv.size(), mesh.halfEdgeCount()); // its quads may come next
   history.packMaps(mesh);
   history.packMaps(mesh);
-  for (const auto& map : { ofResult, best })
+  for (const auto& map : { ofResult, last })
   {
     EXPECT_TRUE(map->uv.empty());
     EXPECT_GT(map->packed.bytes(), 0U);
@@ -378,7 +333,7 @@ TEST(History, PackedMapsKeepTheirUv)
     map->unpack(mesh);
   }
   EXPECT_EQ(ofResult->uv, cutMap(mesh, 10));
-  EXPECT_EQ(best->uv, cutMap(mesh, 20));
+  EXPECT_EQ(last->uv, cutMap(mesh, 20));
 }
 
 } // namespace

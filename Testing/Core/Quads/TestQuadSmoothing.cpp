@@ -62,34 +62,6 @@ double meanShape(const QuadMesh& mesh)
 
 } // namespace
 
-// Bit by bit, so that its neighbours make room for it; never so far that a quad turns over.
-TEST(QuadSmoothing, APointGoesWhereItIsWanted)
-{
-  const GridMapCase c = squares("plane", gridPlane(6, 6), 1);
-  const QuadMesh before = extractRaw(c);
-  const auto inner = [&](Index p) { return before.onBoundary[p] == 0 && meshCorner(before, p); };
-  Index p = 0;
-  while (p < before.points.size() && !inner(p))
-  {
-    ++p;
-  }
-  ASSERT_LT(p, before.points.size());
-  for (const double way : { 0.9, 4.0 }) // edge lengths
-  {
-    QuadMesh mesh = before;
-    const Vector3 place = before.points[p] + way * Vector3(0.6, 0.8, 0);
-    SmoothingOptions options;
-    options.threads = 1;
-    options.wanted = { { c.mesh.origin[*meshCorner(before, p)], place } };
-    smoothQuads(c.mesh, mesh, options);
-    const double off = (mesh.points[p] - place).norm();
-    EXPECT_LT(off, way < 1 ? 1e-9 : way - 0.5);
-    EXPECT_GE(worstShape(mesh), 0.3);
-    const Vector3 at = positionOf(c.mesh, { mesh.sourceFace[p], mesh.sourceWeights[p] });
-    EXPECT_LT((at - mesh.points[p]).norm(), 1e-12);
-  }
-}
-
 TEST(QuadSmoothing, RaisesShapesAndStaysOnTheSurface)
 {
   const GridMapCase c = crumpledPlane(12, 9, 1);

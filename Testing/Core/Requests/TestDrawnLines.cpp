@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Requests/CycleSectors.h"
+#include "Requests/DrawnLines.h"
 
 #include "MeshInput.h"
 #include "Prepare/Prepare.h"
@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace quadrille
@@ -18,8 +19,6 @@ namespace
 {
 
 using namespace test;
-
-constexpr double kOnCourse = 1e-9;
 
 /// Round a cube, upright or not.
 CurveRequest roundCube(double height, double slant)
@@ -33,18 +32,21 @@ CurveRequest roundCube(double height, double slant)
   return cycle;
 }
 
-/// With cycles as features; they get their course on it.
-Mesh cubeWith(std::vector<CurveRequest>& cycles)
+/// With lines as features; they get their course on it.
+Mesh cubeWith(std::vector<CurveRequest>& lines)
 {
   PrepareOptions options;
   options.featureAngle = kPi / 4;
   PreparedSurface surface = prepareSurface(toInput(unitCube(4)), options);
   std::vector<std::string> notices;
-  const auto paths = insertFeatures(surface, featuresWithCycles({}, cycles), { 0.2, 1 }, notices);
+  std::vector<FeatureRequest> features;
+  addFeatures(lines, CurveKind::Cycle, features);
+  addFeatures(lines, CurveKind::Connection, features);
+  const auto paths = insertFeatures(surface, features, { 0.2, 1 }, notices);
   EXPECT_TRUE(notices.empty());
-  for (std::size_t i = 0; i < cycles.size(); ++i)
+  for (std::size_t i = 0; i < lines.size(); ++i)
   {
-    cycles[i].points = paths[i];
+    lines[i].points = paths[i];
   }
   return surface.mesh;
 }
@@ -69,11 +71,11 @@ bool isOnEdgeOfCube(const Vector3& p)
   return isAtEnd(p.x()) && isAtEnd(p.y());
 }
 
-TEST(CycleSectors, StraightOnFacesAndAcrossFeatures)
+TEST(DrawnLines, StraightOnFacesAndAcrossFeatures)
 {
   std::vector<CurveRequest> cycles{ roundCube(0.3, 0.2) };
   const Mesh mesh = cubeWith(cycles);
-  const std::vector<std::uint8_t> edges = edgesOfCycles(mesh, cycles, kOnCourse);
+  const EdgesOfLines edges = edgesOfLines(mesh, cycles);
   const std::vector<int> turns = straightAlong(mesh, edges, {});
   std::size_t across = 0, along = 0;
   for (Index v = 0; v < mesh.vertexCount(); ++v)
@@ -98,16 +100,17 @@ TEST(CycleSectors, StraightOnFacesAndAcrossFeatures)
   *std::find(found.begin(), found.end(), 2) = 3;
   EXPECT_FALSE(isStraightAlong(mesh, edges, found));
   // Where there is none.
-  const std::vector<std::uint8_t> none = edgesOfCycles(mesh, { roundCube(0.8, 0) }, kOnCourse);
-  EXPECT_EQ(std::count(none.begin(), none.end(), 0), static_cast<std::ptrdiff_t>(none.size()));
+  const EdgesOfLines none = edgesOfLines(mesh, { roundCube(0.8, 0) });
+  EXPECT_EQ(std::count(none.edges.begin(), none.edges.end(), 0),
+    static_cast<std::ptrdiff_t>(none.edges.size()));
   EXPECT_FALSE(isStraightAlong(mesh, none, found));
 }
 
-TEST(CycleSectors, TwoThatCross)
+TEST(DrawnLines, TwoThatCross)
 {
   std::vector<CurveRequest> cycles{ roundCube(0.2, 0.6), roundCube(0.5, 0) };
   const Mesh mesh = cubeWith(cycles);
-  const std::vector<int> turns = straightAlong(mesh, edgesOfCycles(mesh, cycles, kOnCourse), {});
+  const std::vector<int> turns = straightAlong(mesh, edgesOfLines(mesh, cycles), {});
   std::size_t crossings = 0;
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
@@ -121,16 +124,74 @@ TEST(CycleSectors, TwoThatCross)
   EXPECT_EQ(crossings, 2U);
 }
 
-TEST(CycleSectors, WhatIsAskedForStays)
+TEST(DrawnLines, WhatIsAskedForStays)
 {
   std::vector<CurveRequest> cycles{ roundCube(0.3, 0) };
   const Mesh mesh = cubeWith(cycles);
-  const std::vector<std::uint8_t> edges = edgesOfCycles(mesh, cycles, kOnCourse);
+  const EdgesOfLines edges = edgesOfLines(mesh, cycles);
   const std::vector<int> free = straightAlong(mesh, edges, {});
   std::vector<int> asked(mesh.halfEdgeCount(), 0);
   const auto h = static_cast<std::size_t>(std::find(free.begin(), free.end(), 2) - free.begin());
   asked[h] = 3;
   EXPECT_EQ(straightAlong(mesh, edges, asked)[h], 3);
+}
+
+/// From a place on the front, where `ends` says what is there, over the edge x = y = 1 to one on the right.
+CurveRequest overTheEdge(const std::array<int, 2>& ends)
+{
+  CurveRequest connection{ CurveKind::Connection,
+    { { 0.3, 0, 0.4 }, { 1, 0, 0.5 }, { 1, 0.7, 0.6 } } };
+  connection.ends = ends;
+  return connection;
+}
+
+TEST(DrawnLines, AConnectionIsStraightButForItsEnds)
+{
+  std::vector<CurveRequest> lines{ overTheEdge({ 3, 5 }) };
+  const Mesh mesh = cubeWith(lines);
+  const EdgesOfLines edges = edgesOfLines(mesh, lines);
+  const std::vector<int> turns = straightAlong(mesh, edges, {});
+  std::size_t ends = 0, across = 0, along = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (edges.edges[h] == 0)
+    {
+      continue;
+    }
+    const Index v = mesh.origin[h];
+    const Vector3& p = mesh.position[v];
+    const std::multiset<int> there = turnsAt(mesh, v, turns);
+    if ((p - lines[0].points.front()).norm() < 1e-9 || (p - lines[0].points.back()).norm() < 1e-9)
+    {
+      ++ends;
+      EXPECT_EQ(edges.isFree[v], 1);
+      EXPECT_EQ(there, std::multiset<int>{ 0 });
+      continue;
+    }
+    EXPECT_EQ(edges.isFree[v], 0);
+    (isOnEdgeOfCube(p) ? across : along) += 1;
+    EXPECT_EQ(
+      there, (isOnEdgeOfCube(p) ? std::multiset<int>{ 1, 1, 1, 1 } : std::multiset<int>{ 2, 2 }));
+  }
+  EXPECT_EQ(ends, 2U);
+  EXPECT_EQ(across, 2U); // half-edges
+  EXPECT_GE(along, 4U);
+}
+
+TEST(DrawnLines, AConnectionWhoseEndsAreNotKnownIsNone)
+{
+  CurveRequest connection = overTheEdge({ 3, 5 });
+  connection.ends.reset();
+  EXPECT_FALSE(hasLines({ connection }));
+  EXPECT_TRUE(hasLines({ connection, roundCube(0.5, 0) }));
+  std::vector<FeatureRequest> features;
+  addFeatures({ connection }, CurveKind::Connection, features);
+  EXPECT_TRUE(features.empty());
+  connection.setEnds({ 0.2, 0, 0.4 }, { 1, 0.8, 0.6 }, { 0, 5 });
+  addFeatures({ connection }, CurveKind::Connection, features);
+  ASSERT_EQ(features.size(), 1U);
+  EXPECT_EQ(features[0].points.front(), Vector3(0.2, 0, 0.4));
+  EXPECT_EQ(features[0].points.back(), Vector3(1, 0.8, 0.6));
 }
 
 } // namespace

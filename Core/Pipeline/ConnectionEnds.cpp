@@ -1,0 +1,338 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/ConnectionEnds.h"
+
+#include "Base/Lists.h"
+#include "Base/PlaceText.h"
+#include "Base/TryCount.h"
+#include "Mesh/Distance.h"
+#include "Pipeline/DrawnOnSurface.h"
+#include "Pipeline/Notices.h"
+#include "Pipeline/StageRecords.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <set>
+
+namespace quadrille
+{
+namespace
+{
+
+/// In edge lengths: how far from the end of a connection the irregular vertex may be that it joins, and a curve.
+constexpr double kReachOfIrregular = 3;
+constexpr double kReachOfCurve = 1.5;
+/// The same by which smoothing moves an irregular vertex, at most.
+constexpr double kSmoothedAway = 2;
+/// Progress of the run with other irregular vertices free.
+const std::string kSecondText =
+  "Attempt 2 of at most 2, others free (connections that are not met)";
+
+/// Points inside, off features.
+std::vector<Index> irregularInside(const QuadMesh& quads)
+{
+  std::vector<std::uint8_t> isOnCurve = quads.onBoundary;
+  for (const QuadLine& line : quads.lines)
+  {
+    isOnCurve[line.a] = isOnCurve[line.b] = 1;
+  }
+  return idsWhere(quads.points.size(),
+    [&](Index p)
+    {
+      const int valence = quads.valence[p];
+      return isOnCurve[p] == 0 && valence != kRegularValence && valence >= kLeastValence &&
+        valence <= kMostValence;
+    });
+}
+
+/// What an end can join.
+struct End
+{
+  Index point = kInvalidIndex; ///< that is irregular; none: on a curve
+  int valence = 0;
+};
+
+/// The nearest in reach.
+std::optional<End> endAt(const QuadMesh& quads, double edgeLength, const Vector3& place)
+{
+  std::optional<End> end;
+  double least = kReachOfIrregular * edgeLength;
+  for (const Index p : irregularInside(quads))
+  {
+    const double distance = (quads.points[p] - place).norm();
+    if (distance <= least)
+    {
+      least = distance;
+      end = End{ p, quads.valence[p] };
+    }
+  }
+  least = std::min(least, kReachOfCurve * edgeLength);
+  for (const QuadLine& line : quads.lines)
+  {
+    const double distance = distanceToSegment(place, quads.points[line.a], quads.points[line.b]);
+    if (distance <= least)
+    {
+      least = distance;
+      end = End{};
+    }
+  }
+  return end;
+}
+
+/// Of the places with this valence the nearest one to p, at most so far away; null: none.
+const ValencePlace* nearestOf(
+  const std::vector<ValencePlace>& valences, int valence, const Vector3& p, double within)
+{
+  const ValencePlace* nearest = nullptr;
+  for (const ValencePlace& asked : valences)
+  {
+    const double distance = (asked.place - p).norm();
+    if (asked.valence == valence && distance <= within)
+    {
+      within = distance;
+      nearest = &asked;
+    }
+  }
+  return nearest;
+}
+
+/// Valences that are asked for at places and points, but for those that may drift.
+std::vector<ValencePlace> fixedValences(const SurfaceInput& input)
+{
+  std::vector<ValencePlace> fixed =
+    elementsWhere(input.drawn.valences, [](const ValencePlace& asked) { return !asked.mayDrift; });
+  for (Index p = 0; p < input.targetValences.size(); ++p)
+  {
+    if (input.targetValences[p] != 0)
+    {
+      fixed.push_back({ input.points[p], input.targetValences[p] });
+    }
+  }
+  return fixed;
+}
+
+/// The end of a connection that joins an irregular vertex at a point of the quads. Where a valence is asked for there,
+/// that is the place; otherwise the vertex comes to the end.
+void leadTo(const Vector3& point, int valence, double edgeLength, SurfaceInput& input, Vector3& end)
+{
+  const std::vector<ValencePlace> fixed = fixedValences(input);
+  if (const ValencePlace* asked = nearestOf(fixed, valence, point, kAsAsked * edgeLength))
+  {
+    end = asked->place;
+    return;
+  }
+  std::vector<ValencePlace>& valences = input.drawn.valences;
+  const std::vector<ValencePlace> drifting =
+    elementsWhere(valences, [](const ValencePlace& asked) { return asked.mayDrift; });
+  if (const ValencePlace* kept = nearestOf(drifting, valence, point, kSmoothedAway * edgeLength))
+  {
+    valences.erase(std::find(valences.begin(), valences.end(), *kept));
+  }
+}
+
+std::size_t countMet(const RemeshResult& made)
+{
+  return static_cast<std::size_t>(std::count_if(
+    made.curves.begin(), made.curves.end(), [](const CurveOutcome& curve) { return curve.met; }));
+}
+
+} // namespace
+
+ConnectionEnds::ConnectionEnds(SurfaceInput& input, const RemeshOptions& options)
+  : input_(input), options_(options), whyNot_(input.curves.size())
+{
+  for (std::size_t i = 0; i < input.curves.size(); ++i)
+  {
+    if (!input.curves[i].isDrawn() && options.method != MapMethod::ScaleAware)
+    {
+      whyNot_[i] = std::string("the method '") + nameOf(options.method) +
+        "' makes no connections: choose scale aware";
+    }
+    isMissing_ = isMissing_ || (!input.curves[i].isDrawn() && whyNot_[i].empty());
+  }
+}
+
+RemeshOptions ConnectionEnds::optionsOfQuads() const
+{
+  RemeshOptions options = options_;
+  options.preview = false; // its quads are not those that are seen
+  options.progress = subProgress(options_.progress, 0, 0.5, "Without connections: ");
+  return options;
+}
+
+SurfaceInput ConnectionEnds::drawn() const
+{
+  SurfaceInput input = input_;
+  eraseIf(input.curves, [](const CurveRequest& curve) { return !curve.isDrawn(); });
+  append(input.drawn.valences, held_);
+  input.regularElsewhere = input.regularElsewhere || !held_.empty();
+  return input;
+}
+
+bool ConnectionEnds::findIn(RemeshResult& without)
+{
+  isMissing_ = false;
+  if (!without.stopped.empty())
+  {
+    // Quads without the connections are none that were asked for.
+    const RunEstimate estimated = without.estimate;
+    without = {};
+    without.estimate = estimated;
+    without.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+  }
+  if (!without.status.ok())
+  {
+    return false;
+  }
+  bool isAny = false;
+  std::set<Index> joined;
+  for (std::size_t i = 0; i < input_.curves.size(); ++i)
+  {
+    CurveRequest& curve = input_.curves[i];
+    if (!curve.isDrawn())
+    {
+      join(curve, without, whyNot_[i], joined);
+      isAny = isAny || curve.isDrawn();
+      isMissing_ = isMissing_ || !curve.isDrawn();
+    }
+  }
+  isMissing_ = isMissing_ && isAny;
+  if (isAny)
+  {
+    hold(without, joined);
+    take(without);
+  }
+  return isAny;
+}
+
+void ConnectionEnds::join(CurveRequest& connection, const RemeshResult& without,
+  std::string& whyNot, std::set<Index>& joined)
+{
+  const double edgeLength = without.targetEdgeLength;
+  const std::array<Vector3*, 2> places{ &connection.points.front(), &connection.points.back() };
+  std::array<std::optional<End>, 2> ends;
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    ends[i] = endAt(without.quads, edgeLength, *places[i]);
+    if (!ends[i])
+    {
+      whyNot = "no irregular vertex, feature or boundary lies within " +
+        std::to_string(static_cast<int>(kReachOfIrregular)) + " quads of " + placeText(*places[i]) +
+        ": draw to one, or ask for a valence there";
+      return;
+    }
+  }
+  if (ends[0]->point != kInvalidIndex && ends[0]->point == ends[1]->point)
+  {
+    whyNot = "both ends are nearest to the same vertex, at " +
+      placeText(without.quads.points[ends[0]->point]) + ": draw between two";
+    return;
+  }
+  whyNot.clear();
+  connection.ends = { ends[0]->valence, ends[1]->valence };
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    if (ends[i]->point != kInvalidIndex)
+    {
+      joined.insert(ends[i]->point);
+      leadTo(
+        without.quads.points[ends[i]->point], ends[i]->valence, edgeLength, input_, *places[i]);
+    }
+  }
+}
+
+void ConnectionEnds::hold(const RemeshResult& without, const std::set<Index>& joined)
+{
+  held_.clear();
+  if (input_.regularElsewhere)
+  {
+    return; // who asks for that has named them
+  }
+  const std::vector<ValencePlace> fixed = fixedValences(input_);
+  for (const Index p : irregularInside(without.quads))
+  {
+    const Vector3& place = without.quads.points[p];
+    const int valence = without.quads.valence[p];
+    const bool isAsked = joined.count(p) != 0 ||
+      nearestOf(fixed, valence, place, kAsAsked * without.targetEdgeLength) != nullptr;
+    if (!isAsked)
+    {
+      held_.push_back({ place, valence, true });
+    }
+  }
+}
+
+bool ConnectionEnds::mayFreeOthers(const RemeshResult& made) const
+{
+  const bool isOver = !made.stopped.empty() || made.status.code == StatusCode::Cancelled ||
+    made.status.code == StatusCode::TooLarge;
+  return !held_.empty() && !isOver && (!made.status.ok() || countMet(made) < made.curves.size());
+}
+
+RemeshOptions ConnectionEnds::freeOthers()
+{
+  held_.clear();
+  RemeshOptions options = options_;
+  options.progress = subProgress(options_.progress, 0.5, 1, kSecondText + ": ");
+  return options;
+}
+
+bool ConnectionEnds::isBetter(RemeshResult& free, RemeshResult& held)
+{
+  const bool isBetter = free.status.ok() && (!held.status.ok() || countMet(free) > countMet(held));
+  RemeshResult& made = isBetter ? free : held;
+  take(isBetter ? held : free);
+  std::vector<std::string> attempts = held.attempts;
+  append(attempts, free.attempts);
+  made.attempts = std::move(attempts);
+  ++taken_.tries.taken[static_cast<std::size_t>(Try::OthersFree)];
+  made.tries.led[static_cast<std::size_t>(Try::OthersFree)] += isBetter ? 1 : 0;
+  if (free.status.code == StatusCode::Cancelled && held.status.ok())
+  {
+    held.stopped = kSecondText;
+    held.notices.push_back(stoppedText(held.stopped));
+  }
+  return isBetter;
+}
+
+void ConnectionEnds::take(const RemeshResult& made)
+{
+  StageRecords stages;
+  stages.add(taken_.stages);
+  stages.add(made.stages);
+  taken_.stages = stages.all();
+  taken_.tries.addTaken(made.tries);
+  taken_.work += made.work;
+  taken_.decimations += made.decimations;
+  taken_.replays += made.replays;
+}
+
+void ConnectionEnds::tell(RemeshResult& result) const
+{
+  StageRecords stages;
+  stages.add(taken_.stages);
+  stages.add(result.stages);
+  result.stages = stages.all();
+  result.tries.addTaken(taken_.tries);
+  result.work += taken_.work;
+  result.decimations += taken_.decimations;
+  result.replays += taken_.replays;
+  std::vector<CurveOutcome> all;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < input_.curves.size(); ++i)
+  {
+    const CurveRequest& curve = input_.curves[i];
+    if (curve.isDrawn())
+    {
+      all.push_back(next < result.curves.size() ? result.curves[next] : CurveOutcome{});
+      ++next;
+      continue;
+    }
+    all.push_back({ false, whyNot_[i], curve.points.front(), curve.points.back() });
+  }
+  result.curves = std::move(all);
+}
+
+} // namespace quadrille

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Lines that a user draws: cycles, and connections whose ends are known. They are features of the surface, which the
+/// quads go straight on along: no irregular vertex lies on them but at the ends of connections.
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/Requests.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace quadrille
+{
+
+bool hasLines(const std::vector<CurveRequest>& curves);
+
+/// Adds the lines of a kind, cycles closed.
+void addFeatures(
+  const std::vector<CurveRequest>& curves, CurveKind kind, std::vector<FeatureRequest>& features);
+
+/// What lies along lines: of a mesh whose features these have become, maybe a coarser level.
+struct EdgesOfLines
+{
+  std::vector<std::uint8_t> edges; ///< #H flags of their half-edges
+  std::vector<std::uint8_t>
+    isFree; ///< #V flags of vertices where a connection ends, and nothing is asked of sectors
+};
+
+/// The lines' points are the course that they got on the surface, see drawFeatures.
+EdgesOfLines edgesOfLines(const Mesh& mesh, const std::vector<CurveRequest>& curves);
+
+/// Quarter turns of sectors (#H, see CrossFieldOptions::sectorTurns; may be empty) with those along lines: two on each
+/// side, where a feature meets them one on each side of that. Sectors that are asked for stay, and so do those of
+/// vertices where more meet on one side.
+std::vector<int> straightAlong(
+  const Mesh& mesh, const EdgesOfLines& lines, std::vector<int> sectorTurns);
+
+/// Whether a field makes these turns (#H) at all vertices of lines, and there are some.
+bool isStraightAlong(
+  const Mesh& mesh, const EdgesOfLines& lines, const std::vector<std::int8_t>& sectorTurns);
+
+} // namespace quadrille
