@@ -190,7 +190,14 @@ std::optional<SurfacePoint> QuadMoves::target(Index p, const Vector3& displaceme
     return walkSurface(mesh_, place(p), displacement, kMaximumFaces);
   }
   const std::optional<CurvePoint> from = curvePoint(place(p));
-  return from ? slide(p, displacement.dot(mesh_.edgeVector(from->h).normalized())) : std::nullopt;
+  if (!from)
+  {
+    return std::nullopt;
+  }
+  const double length = displacement.dot(mesh_.edgeVector(from->h).normalized());
+  const auto ahead = lines_.size(p) == 2 ? spanFrom(p, *from, length > 0) : std::nullopt;
+  const bool passes = ahead && std::abs(length) >= ahead->second.length;
+  return passes ? std::nullopt : slide(p, length);
 }
 
 std::optional<SurfacePoint> QuadMoves::slide(Index p, double length) const

@@ -43,7 +43,8 @@ public:
   const PointLists& incidentQuads() const { return incident_; }
   const Vector3& position(Index p) const { return quads_.points[p]; }
 
-  /// Where p comes when it moves by the displacement; none where something is in the way.
+  /// Where p comes when it moves by the displacement; none where something is in the way, as the next points of its
+  /// curve are.
   std::optional<SurfacePoint> target(Index p, const Vector3& displacement) const;
   SurfacePoint place(Index p) const { return { quads_.sourceFace[p], quads_.sourceWeights[p] }; }
   /// position: of the place.

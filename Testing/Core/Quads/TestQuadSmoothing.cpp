@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Extraction/Extraction.h"
+#include "Quads/QuadMoves.h"
 #include "Quads/QuadShape.h"
 #include "Quads/QuadSmoothing.h"
 #include "Quads/SurfaceWalk.h"
@@ -61,6 +62,34 @@ double meanShape(const QuadMesh& mesh)
 }
 
 } // namespace
+
+TEST(QuadMoves, PointsOfACurveDoNotPassEachOther)
+{
+  const GridMapCase c = squares("plane", gridPlane(6, 6), 1);
+  QuadMesh mesh = extractRaw(c);
+  const QuadMoves moves(c.mesh, mesh, {});
+  std::size_t sliding = 0;
+  for (Index p = 0; p < mesh.points.size(); ++p)
+  {
+    if (moves.freedom(p) != QuadMoves::Freedom::Curve)
+    {
+      continue;
+    }
+    ++sliding;
+    const bool isBelow = mesh.points[p].y() < 1e-9 || mesh.points[p].y() > 6 - 1e-9;
+    const Vector3 along = isBelow ? Vector3(1, 0, 0) : Vector3(0, 1, 0);
+    for (const double way : { -1.5, -0.9, 0.9, 1.5 }) // edge lengths
+    {
+      const std::optional<SurfacePoint> place = moves.target(p, way * along);
+      ASSERT_EQ(place.has_value(), std::abs(way) < 1) << way;
+      if (place)
+      {
+        EXPECT_LT((positionOf(c.mesh, *place) - mesh.points[p] - way * along).norm(), 1e-12);
+      }
+    }
+  }
+  EXPECT_EQ(sliding, 20U);
+}
 
 TEST(QuadSmoothing, RaisesShapesAndStaysOnTheSurface)
 {
