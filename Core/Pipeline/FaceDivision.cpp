@@ -557,12 +557,14 @@ std::vector<Vector3> gapsIn(const QuadMesh& quads)
   return places;
 }
 
-std::string filledText(const CutFaces& cut, std::size_t quads)
+std::string filledText(const CutFaces& cut, std::size_t quads, std::size_t ofWhole)
 {
+  const std::size_t all = ofWhole != 0 ? ofWhole : quads;
+  const double share = cut.share * static_cast<double>(quads) / static_cast<double>(all);
   std::ostringstream text;
-  text << "ask for more than " << quads << " quads: " << cut.count
+  text << "ask for more than " << all << " quads: " << cut.count
        << (cut.count == 1 ? " face" : " faces") << " between sharp edges, with "
-       << std::setprecision(3) << 100 * cut.share << " % of the area, near "
+       << std::setprecision(3) << 100 * share << " % of the area, near "
        << placeText(cut.faces.mesh.middleOfFace(0)) << (cut.count == 1 ? ", has" : ", have")
        << " no map with quads of this size; the edges are kept, and inside there are quads that "
           "follow no direction";
@@ -653,6 +655,7 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
     SizedSurface& sized = rest.sized;
     sized.edgeLength = whole.edgeLength;
     sized.hasBeside = true;
+    sized.quadsOfWhole = whole.quadsOfWhole != 0 ? whole.quadsOfWhole : whole.targetQuads;
     sized.targetQuads = static_cast<std::size_t>(
       std::max(1.0, std::round(rest.share * static_cast<double>(whole.targetQuads))));
     sized.key = KeyMaker(whole.key).add(parts[1].surface.hash).key();

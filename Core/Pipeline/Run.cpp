@@ -336,7 +336,7 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
     improveShape(
       sized.surface->mesh, extractionOptions(*sized.surface, result, options), result.quads);
   }
-  result.notices.push_back(filledText(cut, sized.targetQuads));
+  result.notices.push_back(filledText(cut, sized.targetQuads, sized.quadsOfWhole));
   failure = {};
   return true;
 }

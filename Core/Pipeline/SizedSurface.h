@@ -37,8 +37,9 @@ struct SizedSurface : SizeReport
   std::size_t work =
     WorkBound::kNoBound; ///< that its attempts may take, where it is a part of a surface
   bool hasBeside =
-    false;           ///< faces beside it are filled: quads of both are improved when they are one
-  ResultKey key = 0; ///< of all but guides and valences
+    false; ///< faces beside it are filled: quads of both are improved when they are one
+  std::size_t quadsOfWhole = 0; ///< of the surface that it is a part of; 0: of none
+  ResultKey key = 0;            ///< of all but guides and valences
   /// Components that become the smallest blocks of quads, and a word on them, see countBlocks.
   std::vector<SmallDetail> blocks;
   std::string blocksNotice;

@@ -12,7 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iomanip>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -97,8 +99,13 @@ TEST_F(RequestsAtCut, ValencesOnTheCutAreThoseOfTheFaces)
   ASSERT_EQ(restOf(made).valenceRequests.size(), 1U);
   const ValenceRequest& kept = restOf(made).valenceRequests.front();
   EXPECT_LT((restOf(made).mesh.position[kept.vertex] - Vector3(6, 2, 0)).norm(), 1e-6);
-  const std::string text = filledText(made, 32);
+  // The surface is a quarter of the user's, whose numbers are told.
+  const std::string text = filledText(made, 32, 128);
   EXPECT_NE(text.find("2 constraints there"), std::string::npos) << text;
+  EXPECT_EQ(text.find("ask for more than 128 quads: "), 0U) << text;
+  std::ostringstream share;
+  share << "with " << std::setprecision(3) << 25 * made.share << " % of the area";
+  EXPECT_NE(text.find(share.str()), std::string::npos) << text;
 }
 
 TEST_F(RequestsAtCut, WhatIsHeldOnTheCutHasTheSectorsOfTheRest)
