@@ -13,6 +13,7 @@
  * 1. the intermediate level, with the same arrays.
  * 2. the log, for vtkIntegerGridMapUpmap: a table without columns, the bytes in the field array `DecimationLog`, bound
  *    to the surface by `SurfaceHash`. It has a port of its own so that it never travels with a picture.
+ * Moves of irregular vertices and connections are refused: they need quads without them, as vtkQuadRemesh makes them.
  */
 #ifndef vtkDecimationHierarchy_h
 #define vtkDecimationHierarchy_h

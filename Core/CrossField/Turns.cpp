@@ -6,7 +6,6 @@
 #include "CrossField/PowerField.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace quadrille

@@ -114,9 +114,9 @@ public:
     const Vector3& place, int asked, const std::vector<ValencePlace>* irregular);
   /// The same of a vertex that was moved: at its new place, and at its old one.
   ConstraintMeasure move(const PlacedConstraint& constraint);
-  /// "edge lengths": of a connection or cycle, met where there is a straight chain of edges that ends where the line
-  /// does, or closes within kMetCycle of it: the largest distance from the chain to the line or back. outcomes: see
-  /// AskedConstraints, for the reason.
+  /// "edge lengths": of a connection or cycle, met where there is a straight chain of edges within kMetLine of it, of a
+  /// cycle a closed one: the largest distance from the chain to the line or back. outcomes: see AskedConstraints, for
+  /// the reason.
   ConstraintMeasure line(
     const PlacedConstraint& constraint, const std::vector<CurveOutcome>& outcomes);
   /// The chain that is judged for a connection or cycle; none: there is none.

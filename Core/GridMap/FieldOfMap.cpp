@@ -28,8 +28,8 @@ void FieldOfMap::computeField()
     straightSectors(mesh_, straight_, seamSectors(mesh_, seams_, options_.sectorTurns));
   if (hasStraightLines_ && hasLines(options_.curves))
   {
-    fieldOptions.sectorTurns = straightAlong(
-      mesh_, edgesOfLines(mesh_, options_.curves), std::move(fieldOptions.sectorTurns));
+    fieldOptions.sectorTurns =
+      straightAlong(mesh_, options_.curves, std::move(fieldOptions.sectorTurns));
   }
   result_.field = computeCrossField(mesh_, fieldOptions);
   result_.field.stretch = options_.stretch;
@@ -66,7 +66,7 @@ CurveOutcome FieldOfMap::outcomeOf(const CurveRequest& curve) const
   {
     return outcome;
   }
-  outcome.met = isStraightAlong(mesh_, edgesOfLines(mesh_, { curve }), result_.field.sectorTurns);
+  outcome.met = isStraightAlong(mesh_, curve, result_.field.sectorTurns);
   if (!outcome.met)
   {
     outcome.why = "features and irregular vertices leave the quads no room to go straight on along "

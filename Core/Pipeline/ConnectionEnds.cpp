@@ -9,6 +9,7 @@
 #include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/Notices.h"
 #include "Pipeline/StageRecords.h"
+#include "Requests/CurveRequests.h"
 
 #include <algorithm>
 #include <array>
@@ -21,9 +22,8 @@ namespace quadrille
 namespace
 {
 
-/// In edge lengths: how far from the end of a connection the irregular vertex may be that it joins, and a curve.
+/// In edge lengths: how far from the end of a connection the irregular vertex may be that it joins.
 constexpr double kReachOfIrregular = 3;
-constexpr double kReachOfCurve = 1.5;
 /// The same by which smoothing moves an irregular vertex, at most.
 constexpr double kSmoothedAway = 2;
 /// Progress of the run with other irregular vertices free.
@@ -45,6 +45,23 @@ std::vector<Index> irregularInside(const QuadMesh& quads)
       return isOnCurve[p] == 0 && valence != kRegularValence && valence >= kLeastValence &&
         valence <= kMostValence;
     });
+}
+
+/// #points: whether the map has quads there, and not all fill a face or took the place of bad ones.
+std::vector<std::uint8_t> pointsOfMap(const QuadMesh& quads)
+{
+  const bool areKnown =
+    !quads.quads.empty() && quads.quadSourceWeights.size() == quads.quads.size();
+  std::vector<std::uint8_t> isOfMap(quads.points.size(), areKnown ? 0 : 1);
+  for (std::size_t q = 0; areKnown && q < quads.quads.size(); ++q)
+  {
+    const std::array<double, 3>& weights = quads.quadSourceWeights[q];
+    for (const Index p : quads.quads[q])
+    {
+      isOfMap[p] |= weights[0] != 0 || weights[1] != 0 || weights[2] != 0 ? 1 : 0;
+    }
+  }
+  return isOfMap;
 }
 
 /// What an end can join.
@@ -143,6 +160,7 @@ std::size_t countMet(const RemeshResult& made)
 ConnectionEnds::ConnectionEnds(SurfaceInput& input, const RemeshOptions& options)
   : input_(input), options_(options), whyNot_(input.curves.size())
 {
+  checkCurves(input);
   for (std::size_t i = 0; i < input.curves.size(); ++i)
   {
     if (!input.curves[i].isDrawn() && options.method != MapMethod::ScaleAware)
@@ -251,13 +269,14 @@ void ConnectionEnds::hold(const RemeshResult& without, const std::set<Index>& jo
     return; // who asks for that has named them
   }
   const std::vector<ValencePlace> fixed = fixedValences(input_);
+  const std::vector<std::uint8_t> isOfMap = pointsOfMap(without.quads);
   for (const Index p : irregularInside(without.quads))
   {
     const Vector3& place = without.quads.points[p];
     const int valence = without.quads.valence[p];
     const bool isAsked = joined.count(p) != 0 ||
       nearestOf(fixed, valence, place, kAsAsked * without.targetEdgeLength) != nullptr;
-    if (!isAsked)
+    if (!isAsked && isOfMap[p] != 0)
     {
       held_.push_back({ place, valence, true });
     }
@@ -289,7 +308,8 @@ bool ConnectionEnds::isBetter(RemeshResult& free, RemeshResult& held)
   made.attempts = std::move(attempts);
   ++taken_.tries.taken[static_cast<std::size_t>(Try::OthersFree)];
   made.tries.led[static_cast<std::size_t>(Try::OthersFree)] += isBetter ? 1 : 0;
-  if (free.status.code == StatusCode::Cancelled && held.status.ok())
+  const bool wasStopped = free.status.code == StatusCode::Cancelled || !free.stopped.empty();
+  if (!isBetter && wasStopped && held.status.ok())
   {
     held.stopped = kSecondText;
     held.notices.push_back(stoppedText(held.stopped));
@@ -315,6 +335,12 @@ void ConnectionEnds::tell(RemeshResult& result) const
   stages.add(taken_.stages);
   stages.add(result.stages);
   result.stages = stages.all();
+  eraseIf(result.reused,
+    [&](const std::string& stage)
+    {
+      return std::any_of(taken_.stages.begin(), taken_.stages.end(),
+        [&](const StageRecord& record) { return record.stage == stage; });
+    });
   result.tries.addTaken(taken_.tries);
   result.work += taken_.work;
   result.decimations += taken_.decimations;

@@ -7,6 +7,7 @@
 #include "Mesh/Surface.h"
 #include "Pipeline/Pipeline.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -64,18 +65,24 @@ template <typename Run, typename RemeshedOf>
 auto remeshWithEnds(
   SurfaceInput& input, const RemeshOptions& options, const Run& run, const RemeshedOf& remeshedOf)
 {
+  if (std::all_of(input.curves.begin(), input.curves.end(),
+        [](const CurveRequest& curve) { return curve.isDrawn(); }))
+  {
+    return run(std::move(input), options); // which lets go of its memory
+  }
   ConnectionEnds ends(input, options);
+  bool isMade = false;
+  decltype(run(ends.drawn(), options)) made;
   while (ends.areMissing())
   {
-    auto without = run(ends.drawn(), ends.optionsOfQuads());
+    made = run(ends.drawn(), ends.optionsOfQuads());
     // The quads are those that were asked for, but for a preview.
-    if (!ends.findIn(remeshedOf(without)) && !(remeshedOf(without).status.ok() && options.preview))
-    {
-      ends.tell(remeshedOf(without));
-      return without;
-    }
+    isMade = !ends.findIn(remeshedOf(made)) && !(remeshedOf(made).status.ok() && options.preview);
   }
-  auto made = run(ends.drawn(), options);
+  if (!isMade)
+  {
+    made = run(ends.drawn(), options);
+  }
   if (ends.mayFreeOthers(remeshedOf(made)))
   {
     const RemeshOptions again = ends.freeOthers();

@@ -76,48 +76,35 @@ void flipBeside(PreparedSurface& surface, Index before)
   flips.finish();
 }
 
-/// Lines of a kind get their course on the surface. first: of the paths.
-void takeCourses(CurveKind kind, std::vector<std::vector<Vector3>>& paths, std::size_t first,
-  std::vector<CurveRequest>& curves)
-{
-  for (CurveRequest& curve : curves)
-  {
-    if (curve.kind == kind && curve.isDrawn())
-    {
-      curve.points = std::move(paths[first++]);
-    }
-  }
-}
-
-Vector3 nearestOnCurves(const Mesh& mesh, const Vector3& p)
+/// Of features and boundaries, at most so far away; none: p.
+Vector3 nearestOnCurves(const Mesh& mesh, const Vector3& p, double within)
 {
   Vector3 best = p;
-  double least = kInfinity;
+  double least = within;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     if (mesh.isConstrained(h))
     {
       const Vector3 q =
         nearestOnSegment(p, mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)]);
-      const double squared = (q - p).squaredNorm();
-      best = squared < least ? q : best;
-      least = std::min(least, squared);
+      best = (q - p).norm() < least ? q : best;
+      least = std::min(least, (q - p).norm());
     }
   }
   return best;
 }
 
 /// A connection's ends that are to lie on features or boundaries.
-void leadToCurves(const Mesh& mesh, CurveRequest& connection)
+void leadToCurves(const Mesh& mesh, double within, CurveRequest& connection)
 {
   std::vector<Vector3>& points = connection.points;
   if ((*connection.ends)[0] == 0)
   {
-    points.insert(points.begin(), nearestOnCurves(mesh, points.front()));
+    points.insert(points.begin(), nearestOnCurves(mesh, points.front(), within));
   }
   if ((*connection.ends)[1] == 0)
   {
-    points.push_back(nearestOnCurves(mesh, points.back()));
+    points.push_back(nearestOnCurves(mesh, points.back(), within));
   }
 }
 
@@ -186,19 +173,29 @@ void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& d
   std::vector<FeatureRequest> features = drawn;
   addFeatures(surface.curves, CurveKind::Cycle, features);
   const InsertionOptions options{ edgeLength, threads };
-  std::vector<std::vector<Vector3>> paths = insertFeatures(surface, features, options, notices);
-  takeCourses(CurveKind::Cycle, paths, drawn.size(), surface.curves);
+  std::vector<std::vector<Vector3>> paths;
+  if (!features.empty())
+  {
+    paths = insertFeatures(surface, features, options, notices);
+  }
+  std::size_t next = drawn.size();
+  for (CurveRequest& curve : surface.curves)
+  {
+    if (curve.kind == CurveKind::Cycle)
+    {
+      curve.points = std::move(paths[next++]);
+    }
+  }
+  // One by one, as one may end on another.
   for (CurveRequest& curve : surface.curves)
   {
     if (curve.ends)
     {
-      leadToCurves(surface.mesh, curve);
+      leadToCurves(
+        surface.mesh, 2 * kReachOfCurve * edgeLength, curve); // the quads' edges are chords
+      curve.points = insertFeatures(surface, { { curve.points } }, options, notices).front();
     }
   }
-  features.clear();
-  addFeatures(surface.curves, CurveKind::Connection, features);
-  paths = insertFeatures(surface, features, options, notices);
-  takeCourses(CurveKind::Connection, paths, 0, surface.curves);
   noteAdded(surface, before, threads, notices);
 }
 

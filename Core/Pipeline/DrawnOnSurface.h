@@ -24,7 +24,10 @@ void drawSizes(PreparedSurface& surface, const SurfaceInput& input, double edgeL
 void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, double edgeLength,
   std::vector<std::string>& notices);
 
-/// Features become those of the surface, and so do its cycles, which get their course on it.
+/// Edge lengths from the end of a connection to the feature or boundary that it joins, at most.
+constexpr double kReachOfCurve = 1.5;
+
+/// Features become those of the surface, and so do its lines, which get their course on it.
 void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& drawn,
   double edgeLength, int threads, std::vector<std::string>& notices);
 

@@ -196,20 +196,21 @@ std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<F
 std::vector<std::vector<Index>> edgesOfCurves(
   const PreparedSurface& surface, const std::vector<CurveOutcome>& outcomes, const QuadMesh& quads)
 {
-  std::vector<CurveRequest> met;
+  std::vector<std::uint8_t> isOnMet(surface.mesh.halfEdgeCount(), 0);
   for (std::size_t i = 0; i < outcomes.size(); ++i)
   {
     if (outcomes[i].met)
     {
-      met.push_back(surface.curves[i]);
+      const EdgesOfLine line = edgesOfLine(surface.mesh, surface.curves[i]);
+      std::transform(line.edges.begin(), line.edges.end(), isOnMet.begin(), isOnMet.begin(),
+        [](std::uint8_t a, std::uint8_t b) { return a | b; });
     }
   }
-  const EdgesOfLines lines = edgesOfLines(surface.mesh, met);
   std::vector<std::vector<Index>> edges;
   for (const QuadLine& line : quads.lines)
   {
     // Those of filled faces know no half-edge.
-    if (line.halfEdge != kInvalidIndex && lines.edges[line.halfEdge] != 0)
+    if (line.halfEdge != kInvalidIndex && isOnMet[line.halfEdge] != 0)
     {
       edges.push_back({ line.a, line.b });
     }

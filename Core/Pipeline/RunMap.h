@@ -21,7 +21,7 @@ struct RunMap
   std::vector<FixedVec2> coarseUv; ///< #H of coarse.mesh; also where the map has failed, for a look
   std::vector<int> coarseTurns;    ///< #V of coarse.mesh
   Certificate coarseCertificate;
-  /// What became of the surface's curves, in their order; vertices are those of the coarse mesh.
+  /// What became of the surface's curves, in their order.
   std::vector<CurveOutcome> curves;
   /// Ends, corners and bends of features and boundaries, ascending by vertex of the surface.
   std::vector<SectorRequest> onFeatures;

@@ -31,7 +31,7 @@ constexpr double kWorthwhileCut = 0.125;
 /// How often other stubs are looked for that were inside or beside those that were cut off.
 constexpr int kMostThinnings = 6;
 
-/// A simplified surface in the store, without what was asked of it: guides, valences and curves change nothing of it.
+/// A simplified surface in the store, without what was asked of it: guides and valences change nothing of it.
 struct StoredSettled
 {
   PreparedSurface surface;

@@ -33,13 +33,13 @@ bool forFanOf(const Mesh& mesh, Index first, const Visitor& visit)
 /// Calls visit(half-edge, turns) for the sectors at the vertex that h, a flagged edge, leaves: those on each side of
 /// the line make two turns together, where so many have room.
 template <typename Visitor>
-void forSectorsBeside(const Mesh& mesh, const EdgesOfLines& lines, Index h, const Visitor& visit)
+void forSectorsBeside(const Mesh& mesh, const EdgesOfLine& line, Index h, const Visitor& visit)
 {
   std::vector<std::vector<Index>> sides;
   const bool isWhole = forFanOf(mesh, h,
     [&](Index g)
     {
-      if (lines.edges[g] != 0)
+      if (line.edges[g] != 0)
       {
         sides.emplace_back();
       }
@@ -52,7 +52,7 @@ void forSectorsBeside(const Mesh& mesh, const EdgesOfLines& lines, Index h, cons
   {
     return; // on a boundary
   }
-  // Two that cross have two edges each, and a quarter of the turns between two of them.
+  // One that crosses itself has four edges there, and a quarter of the turns between two of them.
   const int most = sides.size() > 2 ? 1 : kTurnsBesideLine;
   for (const std::vector<Index>& side : sides)
   {
@@ -67,15 +67,15 @@ void forSectorsBeside(const Mesh& mesh, const EdgesOfLines& lines, Index h, cons
   }
 }
 
-/// The same for all edges of lines.
+/// The same for all edges of a line.
 template <typename Visitor>
-void forSectorsOfLines(const Mesh& mesh, const EdgesOfLines& lines, const Visitor& visit)
+void forSectorsOfLine(const Mesh& mesh, const EdgesOfLine& line, const Visitor& visit)
 {
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
-    if (lines.edges[h] != 0 && lines.isFree[mesh.origin[h]] == 0)
+    if (line.edges[h] != 0 && line.ends[mesh.origin[h]] == 0)
     {
-      forSectorsBeside(mesh, lines, h, visit);
+      forSectorsBeside(mesh, line, h, visit);
     }
   }
 }
@@ -135,52 +135,53 @@ void addFeatures(
   }
 }
 
-EdgesOfLines edgesOfLines(const Mesh& mesh, const std::vector<CurveRequest>& curves)
+EdgesOfLine edgesOfLine(const Mesh& mesh, const CurveRequest& line)
 {
-  EdgesOfLines lines{ std::vector<std::uint8_t>(mesh.halfEdgeCount(), 0),
+  EdgesOfLine found{ std::vector<std::uint8_t>(mesh.halfEdgeCount(), 0),
     std::vector<std::uint8_t>(mesh.vertexCount(), 0) };
-  for (const CurveRequest& curve : curves)
+  const std::vector<Vector3> course = courseOf(line);
+  const double tolerance = kOnCourse * spanOf(course);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
-    if (!curve.isDrawn())
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    if (mesh.isFeature(h) && !mesh.isBoundary(h) && isOnCourse(course, p, tolerance) &&
+      isOnCourse(course, mesh.position[mesh.target(h)], tolerance))
     {
-      continue;
-    }
-    const std::vector<Vector3> course = courseOf(curve);
-    const double tolerance = kOnCourse * spanOf(course);
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-    {
-      const Vector3& p = mesh.position[mesh.origin[h]];
-      const bool isOf = mesh.isFeature(h) && !mesh.isBoundary(h) &&
-        isOnCourse(course, p, tolerance) &&
-        isOnCourse(course, mesh.position[mesh.target(h)], tolerance);
-      lines.edges[h] |= isOf ? 1 : 0;
-      const bool ends = isOf && curve.kind == CurveKind::Connection &&
+      found.edges[h] = 1;
+      const bool ends = line.kind == CurveKind::Connection &&
         std::min((p - course.front()).norm(), (p - course.back()).norm()) <= tolerance;
-      lines.isFree[mesh.origin[h]] |= ends ? 1 : 0;
+      found.ends[mesh.origin[h]] |= ends ? 1 : 0;
     }
   }
-  return lines;
+  return found;
 }
 
 std::vector<int> straightAlong(
-  const Mesh& mesh, const EdgesOfLines& lines, std::vector<int> sectorTurns)
+  const Mesh& mesh, const std::vector<CurveRequest>& lines, std::vector<int> sectorTurns)
 {
   sectorTurns.resize(mesh.halfEdgeCount(), 0);
-  forSectorsOfLines(mesh, lines,
-    [&](Index sector, int turns)
-    { sectorTurns[sector] = sectorTurns[sector] == 0 ? turns : sectorTurns[sector]; });
+  for (const CurveRequest& line : lines)
+  {
+    if (line.isDrawn())
+    {
+      forSectorsOfLine(mesh, edgesOfLine(mesh, line),
+        [&](Index sector, int turns)
+        { sectorTurns[sector] = sectorTurns[sector] == 0 ? turns : sectorTurns[sector]; });
+    }
+  }
   return sectorTurns;
 }
 
 bool isStraightAlong(
-  const Mesh& mesh, const EdgesOfLines& lines, const std::vector<std::int8_t>& sectorTurns)
+  const Mesh& mesh, const CurveRequest& line, const std::vector<std::int8_t>& sectorTurns)
 {
+  const EdgesOfLine found = edgesOfLine(mesh, line);
   bool isStraight = true;
-  forSectorsOfLines(mesh, lines,
+  forSectorsOfLine(mesh, found,
     [&](Index sector, int turns) { isStraight = isStraight && sectorTurns[sector] == turns; });
   return isStraight &&
     std::any_of(
-      lines.edges.begin(), lines.edges.end(), [](std::uint8_t flag) { return flag != 0; });
+      found.edges.begin(), found.edges.end(), [](std::uint8_t flag) { return flag != 0; });
 }
 
 } // namespace quadrille

@@ -19,25 +19,25 @@ bool hasLines(const std::vector<CurveRequest>& curves);
 void addFeatures(
   const std::vector<CurveRequest>& curves, CurveKind kind, std::vector<FeatureRequest>& features);
 
-/// What lies along lines: of a mesh whose features these have become, maybe a coarser level.
-struct EdgesOfLines
+/// What lies along a line: of a mesh whose feature it has become, maybe a coarser level.
+struct EdgesOfLine
 {
-  std::vector<std::uint8_t> edges; ///< #H flags of their half-edges
+  std::vector<std::uint8_t> edges; ///< #H flags of its half-edges
   std::vector<std::uint8_t>
-    isFree; ///< #V flags of vertices where a connection ends, and nothing is asked of sectors
+    ends; ///< #V flags of the ends of a connection, where nothing is asked of sectors
 };
 
-/// The lines' points are the course that they got on the surface, see drawFeatures.
-EdgesOfLines edgesOfLines(const Mesh& mesh, const std::vector<CurveRequest>& curves);
+/// The line's points are the course that it got on the surface, see drawFeatures.
+EdgesOfLine edgesOfLine(const Mesh& mesh, const CurveRequest& line);
 
 /// Quarter turns of sectors (#H, see CrossFieldOptions::sectorTurns; may be empty) with those along lines: two on each
 /// side, where a feature meets them one on each side of that. Sectors that are asked for stay, and so do those of
 /// vertices where more meet on one side.
 std::vector<int> straightAlong(
-  const Mesh& mesh, const EdgesOfLines& lines, std::vector<int> sectorTurns);
+  const Mesh& mesh, const std::vector<CurveRequest>& lines, std::vector<int> sectorTurns);
 
-/// Whether a field makes these turns (#H) at all vertices of lines, and there are some.
+/// Whether a field makes these turns (#H) at all vertices of the line, and there are some.
 bool isStraightAlong(
-  const Mesh& mesh, const EdgesOfLines& lines, const std::vector<std::int8_t>& sectorTurns);
+  const Mesh& mesh, const CurveRequest& line, const std::vector<std::int8_t>& sectorTurns);
 
 } // namespace quadrille

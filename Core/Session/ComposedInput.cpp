@@ -378,17 +378,29 @@ private:
   }
 
   /// Connections that operations have found there stay what they are: their ends are in no list of irregular vertices.
+  /// Where such a connection is gone, or another one now, these are irregular all the same.
   void setJoined()
   {
     for (const JoinedEnds& joined : list_.joined())
     {
-      for (std::size_t i = 0; i < constraints_.size(); ++i)
+      const auto isIt = [&](const auto& constraint)
+      { return constraint->id == joined.id && constraint->revision == joined.revision; };
+      const auto found = std::find_if(constraints_.begin(), constraints_.end(), isIt);
+      const std::optional<std::size_t> curve = found == constraints_.end()
+        ? std::nullopt
+        : composed_.parts[static_cast<std::size_t>(found - constraints_.begin())].curve;
+      if (curve)
       {
-        const std::optional<std::size_t>& curve = composed_.parts[i].curve;
-        if (constraints_[i]->id == joined.id && curve)
+        composed_.input.curves[*curve].setEnds(
+          joined.start, joined.end, { joined.startValence, joined.endValence });
+        continue;
+      }
+      for (const auto& [place, valence] :
+        { std::pair(joined.start, joined.startValence), std::pair(joined.end, joined.endValence) })
+      {
+        if (valence != 0 && askedAt(place) == nullptr)
         {
-          composed_.input.curves[*curve].setEnds(
-            joined.start, joined.end, { joined.startValence, joined.endValence });
+          composed_.input.drawn.valences.push_back({ place, valence, true });
         }
       }
     }

@@ -108,7 +108,7 @@ enum class IrregularOperation
 /// What a connection joins.
 struct JoinedEnds
 {
-  int id = 0; ///< of the connection
+  int id = 0, revision = 0; ///< of the connection, and how often it had been changed
   Vector3 start = Vector3::Zero(), end = Vector3::Zero();
   int startValence = 0, endValence = 0; ///< 0: a feature or boundary
 };

@@ -144,6 +144,7 @@ constexpr auto kHeldFields = [](auto& fields, auto& held)
 constexpr auto kJoinedFields = [](auto& fields, auto& joined)
 {
   fields.need("id", joined.id);
+  fields.need("revision", joined.revision);
   fields.need("start", joined.start);
   fields.need("end", joined.end);
   fields.need("start_valence", joined.startValence);

@@ -214,8 +214,8 @@ private:
       if (outcome != nullptr && outcome->ends)
       {
         const auto& [start, end] = *outcome->ends;
-        result.joined.push_back(
-          { state_.constraints[i]->id, outcome->start, outcome->end, start, end });
+        result.joined.push_back({ state_.constraints[i]->id, state_.constraints[i]->revision,
+          outcome->start, outcome->end, start, end });
       }
     }
   }

@@ -131,7 +131,7 @@ vtkSmartPointer<vtkPolyData> writeLevel(const Level& level, const std::vector<in
 std::vector<Guide> readGuides(vtkPolyData* data, const Mesh& mesh);
 /// TargetValence by the vertices of readMesh: #V, or empty where no point asks. Throws InvalidInput naming the point.
 std::vector<int> readTargetValences(vtkPolyData* data, const Mesh& mesh);
-/// Connections and cycles as field data, for the map of a coarse level: CurveKinds, CurveSizes, CurvePoints; nothing
+/// Cycles as field data, for the map of a coarse level: CurveKinds, CurveSizes, CurvePoints; nothing
 /// where there are none.
 void addCurveRequests(vtkPolyData* data, const std::vector<CurveRequest>& curves);
 /// The exact inverse. Throws InvalidInput where the arrays do not fit each other.

@@ -119,7 +119,7 @@ TEST(Curves, AConnectionIsAStraightChainOfEdges)
   EXPECT_GE(met, pairs.size() - 1);
 }
 
-/// Where many curves cross, one try may make other vertices irregular than the one before, whose straight ways it has.
+/// Where many cross no map may be straight along all of them.
 TEST(Curves, ManyThatCrossAtOnePlaceHaveQuads)
 {
   SurfaceInput input = toInput(sphere(3));

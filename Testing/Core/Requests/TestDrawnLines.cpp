@@ -75,8 +75,7 @@ TEST(DrawnLines, StraightOnFacesAndAcrossFeatures)
 {
   std::vector<CurveRequest> cycles{ roundCube(0.3, 0.2) };
   const Mesh mesh = cubeWith(cycles);
-  const EdgesOfLines edges = edgesOfLines(mesh, cycles);
-  const std::vector<int> turns = straightAlong(mesh, edges, {});
+  const std::vector<int> turns = straightAlong(mesh, cycles, {});
   std::size_t across = 0, along = 0;
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
@@ -96,21 +95,18 @@ TEST(DrawnLines, StraightOnFacesAndAcrossFeatures)
   EXPECT_GE(along, 4U);
   // As a field would have it, and otherwise.
   std::vector<std::int8_t> found(turns.begin(), turns.end());
-  EXPECT_TRUE(isStraightAlong(mesh, edges, found));
+  EXPECT_TRUE(isStraightAlong(mesh, cycles[0], found));
   *std::find(found.begin(), found.end(), 2) = 3;
-  EXPECT_FALSE(isStraightAlong(mesh, edges, found));
+  EXPECT_FALSE(isStraightAlong(mesh, cycles[0], found));
   // Where there is none.
-  const EdgesOfLines none = edgesOfLines(mesh, { roundCube(0.8, 0) });
-  EXPECT_EQ(std::count(none.edges.begin(), none.edges.end(), 0),
-    static_cast<std::ptrdiff_t>(none.edges.size()));
-  EXPECT_FALSE(isStraightAlong(mesh, none, found));
+  EXPECT_FALSE(isStraightAlong(mesh, roundCube(0.8, 0), found));
 }
 
 TEST(DrawnLines, TwoThatCross)
 {
   std::vector<CurveRequest> cycles{ roundCube(0.2, 0.6), roundCube(0.5, 0) };
   const Mesh mesh = cubeWith(cycles);
-  const std::vector<int> turns = straightAlong(mesh, edgesOfLines(mesh, cycles), {});
+  const std::vector<int> turns = straightAlong(mesh, cycles, {});
   std::size_t crossings = 0;
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
@@ -128,12 +124,11 @@ TEST(DrawnLines, WhatIsAskedForStays)
 {
   std::vector<CurveRequest> cycles{ roundCube(0.3, 0) };
   const Mesh mesh = cubeWith(cycles);
-  const EdgesOfLines edges = edgesOfLines(mesh, cycles);
-  const std::vector<int> free = straightAlong(mesh, edges, {});
+  const std::vector<int> free = straightAlong(mesh, cycles, {});
   std::vector<int> asked(mesh.halfEdgeCount(), 0);
   const auto h = static_cast<std::size_t>(std::find(free.begin(), free.end(), 2) - free.begin());
   asked[h] = 3;
-  EXPECT_EQ(straightAlong(mesh, edges, asked)[h], 3);
+  EXPECT_EQ(straightAlong(mesh, cycles, asked)[h], 3);
 }
 
 /// From a place on the front, where `ends` says what is there, over the edge x = y = 1 to one on the right.
@@ -149,8 +144,8 @@ TEST(DrawnLines, AConnectionIsStraightButForItsEnds)
 {
   std::vector<CurveRequest> lines{ overTheEdge({ 3, 5 }) };
   const Mesh mesh = cubeWith(lines);
-  const EdgesOfLines edges = edgesOfLines(mesh, lines);
-  const std::vector<int> turns = straightAlong(mesh, edges, {});
+  const EdgesOfLine edges = edgesOfLine(mesh, lines[0]);
+  const std::vector<int> turns = straightAlong(mesh, lines, {});
   std::size_t ends = 0, across = 0, along = 0;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
@@ -164,11 +159,11 @@ TEST(DrawnLines, AConnectionIsStraightButForItsEnds)
     if ((p - lines[0].points.front()).norm() < 1e-9 || (p - lines[0].points.back()).norm() < 1e-9)
     {
       ++ends;
-      EXPECT_EQ(edges.isFree[v], 1);
+      EXPECT_EQ(edges.ends[v], 1);
       EXPECT_EQ(there, std::multiset<int>{ 0 });
       continue;
     }
-    EXPECT_EQ(edges.isFree[v], 0);
+    EXPECT_EQ(edges.ends[v], 0);
     (isOnEdgeOfCube(p) ? across : along) += 1;
     EXPECT_EQ(
       there, (isOnEdgeOfCube(p) ? std::multiset<int>{ 1, 1, 1, 1 } : std::multiset<int>{ 2, 2 }));
@@ -176,6 +171,26 @@ TEST(DrawnLines, AConnectionIsStraightButForItsEnds)
   EXPECT_EQ(ends, 2U);
   EXPECT_EQ(across, 2U); // half-edges
   EXPECT_GE(along, 4U);
+}
+
+TEST(DrawnLines, OneThatEndsOnAnotherLeavesThatStraight)
+{
+  CurveRequest below = roundCube(0.3, 0);
+  CurveRequest to{ CurveKind::Connection, { { 0.5, 0, 0.3 }, { 0.5, 0, 0.8 } } };
+  to.ends = { 0, 3 };
+  std::vector<CurveRequest> lines{ below, to };
+  const Mesh mesh = cubeWith(lines);
+  const std::vector<int> turns = straightAlong(mesh, lines, {});
+  std::size_t ends = 0;
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    if ((mesh.position[v] - Vector3(0.5, 0, 0.3)).norm() < 1e-9)
+    {
+      ++ends;
+      EXPECT_EQ(turnsAt(mesh, v, turns), (std::multiset<int>{ 1, 1, 2 }));
+    }
+  }
+  EXPECT_EQ(ends, 1U);
 }
 
 TEST(DrawnLines, AConnectionWhoseEndsAreNotKnownIsNone)

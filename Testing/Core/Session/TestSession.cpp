@@ -329,7 +329,7 @@ TEST(Session, ConnectionsStayWhenVerticesAreMoved)
   Session session(dents(), sessionOptions(600));
   session.update();
   const auto [first, second] = nearestPair(*session.result());
-  session.add(Connection{ { first.place, second.place } });
+  const int connection = session.add(Connection{ { first.place, second.place } });
   session.update();
   const SessionResult joined = *session.result();
   ASSERT_EQ(joined.joined.size(), 1U);
@@ -350,6 +350,12 @@ TEST(Session, ConnectionsStayWhenVerticesAreMoved)
     {
       EXPECT_TRUE(word.isMet) << word.text << ": " << word.reason;
     }
+    EXPECT_EQ(irregularPoints(opened.result()->quads).size(), irregularPoints(joined.quads).size());
+    // Without it they are irregular all the same.
+    opened.remove(connection);
+    const SessionReport& without = opened.update();
+    ASSERT_TRUE(without.status.ok()) << without.status.message;
+    EXPECT_TRUE(without.constraints.front().isMet) << without.constraints.front().reason;
     EXPECT_EQ(irregularPoints(opened.result()->quads).size(), irregularPoints(joined.quads).size());
   }
 }
