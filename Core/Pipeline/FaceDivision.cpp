@@ -568,14 +568,14 @@ std::string filledText(const CutFaces& cut, std::size_t quads, std::size_t ofWho
        << placeText(cut.faces.mesh.middleOfFace(0)) << (cut.count == 1 ? ", has" : ", have")
        << " no map with quads of this size; the edges are kept, and inside there are quads that "
           "follow no direction";
-  const PreparedSurface& faces = cut.faces;
-  const std::size_t unmet = faces.valenceRequests.size() + faces.curves.size();
-  if (unmet > 0)
+  // Lines are edges of what fills the faces.
+  const std::vector<ValenceRequest> unmet = elementsWhere(cut.faces.valenceRequests,
+    [](const ValenceRequest& request)
+    { return !request.mayDrift && request.valence != kRegularValence; });
+  if (!unmet.empty())
   {
-    text << "; " << unmet << (unmet == 1 ? " constraint" : " constraints") << " there, near "
-         << placeText(faces.valenceRequests.empty()
-                ? faces.curves.front().points.front()
-                : faces.mesh.position[faces.valenceRequests.front().vertex])
+    text << "; " << unmet.size() << (unmet.size() == 1 ? " valence" : " valences")
+         << " there, near " << placeText(cut.faces.mesh.position[unmet.front().vertex])
          << ", cannot be met";
   }
   return text.str();

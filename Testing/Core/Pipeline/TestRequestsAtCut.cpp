@@ -101,7 +101,7 @@ TEST_F(RequestsAtCut, ValencesOnTheCutAreThoseOfTheFaces)
   EXPECT_LT((restOf(made).mesh.position[kept.vertex] - Vector3(6, 2, 0)).norm(), 1e-6);
   // The surface is a quarter of the user's, whose numbers are told.
   const std::string text = filledText(made, 32, 128);
-  EXPECT_NE(text.find("2 constraints there"), std::string::npos) << text;
+  EXPECT_NE(text.find("2 valences there"), std::string::npos) << text;
   EXPECT_EQ(text.find("ask for more than 128 quads: "), 0U) << text;
   std::ostringstream share;
   share << "with " << std::setprecision(3) << 25 * made.share << " % of the area";
