@@ -466,13 +466,16 @@ ConstraintMeasure ConstraintMeasures::line(
     return word;
   }
   const bool isCycle = constraint.kind == ConstraintKind::Cycle;
-  ConstraintMeasure edges = curve(constraint.path);
-  if (edges.isMet && (isCycle || (!found && why.empty())))
+  if (isCycle || (!found && why.empty()))
   {
-    edges.isMet = false;
-    edges.reason = "the quads' edges run along it, but turn at irregular vertices on it: draw it "
-                   "farther from others and from corners, or ask for smaller quads";
-    return edges;
+    ConstraintMeasure edges = curve(constraint.path);
+    if (edges.isMet)
+    {
+      edges.isMet = false;
+      edges.reason = "the quads' edges run along it, but turn at irregular vertices on it: draw it "
+                     "farther from others and from corners, or ask for smaller quads";
+      return edges;
+    }
   }
   if (!why.empty())
   {

@@ -97,7 +97,7 @@ std::vector<SizedPart> divide(
     SizedSurface& sized = parts[i].sized;
     sized.edgeLength = whole.edgeLength;
     sized.hasBeside = whole.hasBeside;
-    sized.quadsOfWhole = whole.quadsOfWhole != 0 ? whole.quadsOfWhole : whole.targetQuads;
+    sized.quadsOfWhole = whole.quadsOfAll();
     sized.targetQuads = static_cast<std::size_t>(
       std::max(1.0, std::round(parts[i].share * static_cast<double>(whole.targetQuads))));
     sized.key = KeyMaker(whole.key).add(surfaces[i].surface.hash).key();

@@ -557,9 +557,8 @@ std::vector<Vector3> gapsIn(const QuadMesh& quads)
   return places;
 }
 
-std::string filledText(const CutFaces& cut, std::size_t quads, std::size_t ofWhole)
+std::string filledText(const CutFaces& cut, std::size_t quads, std::size_t all)
 {
-  const std::size_t all = ofWhole != 0 ? ofWhole : quads;
   const double share = cut.share * static_cast<double>(quads) / static_cast<double>(all);
   std::ostringstream text;
   text << "ask for more than " << all << " quads: " << cut.count
@@ -655,7 +654,7 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
     SizedSurface& sized = rest.sized;
     sized.edgeLength = whole.edgeLength;
     sized.hasBeside = true;
-    sized.quadsOfWhole = whole.quadsOfWhole != 0 ? whole.quadsOfWhole : whole.targetQuads;
+    sized.quadsOfWhole = whole.quadsOfAll();
     sized.targetQuads = static_cast<std::size_t>(
       std::max(1.0, std::round(rest.share * static_cast<double>(whole.targetQuads))));
     sized.key = KeyMaker(whole.key).add(parts[1].surface.hash).key();

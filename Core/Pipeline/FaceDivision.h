@@ -60,8 +60,8 @@ struct FilledPart
 /// Where quads of faces and of the rest do not meet; empty where all is well.
 std::vector<Vector3> gapsIn(const QuadMesh& quads);
 
-/// What to tell of them. quads, ofWhole: targetQuads and quadsOfWhole of the surface that they are cut from.
-std::string filledText(const CutFaces& cut, std::size_t quads, std::size_t ofWhole);
+/// What to tell of them. quads, all: targetQuads and quadsOfAll of the surface that they are cut from.
+std::string filledText(const CutFaces& cut, std::size_t quads, std::size_t all);
 
 /// rest: the surface and the quads of the rest, which get strips of quads where an odd number of edges goes round a
 /// face.

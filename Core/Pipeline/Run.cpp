@@ -336,7 +336,7 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
     improveShape(
       sized.surface->mesh, extractionOptions(*sized.surface, result, options), result.quads);
   }
-  result.notices.push_back(filledText(cut, sized.targetQuads, sized.quadsOfWhole));
+  result.notices.push_back(filledText(cut, sized.targetQuads, sized.quadsOfAll()));
   failure = {};
   return true;
 }

@@ -39,7 +39,8 @@ struct SizedSurface : SizeReport
   bool hasBeside =
     false; ///< faces beside it are filled: quads of both are improved when they are one
   std::size_t quadsOfWhole = 0; ///< of the surface that it is a part of; 0: of none
-  ResultKey key = 0;            ///< of all but guides and valences
+  std::size_t quadsOfAll() const { return quadsOfWhole != 0 ? quadsOfWhole : targetQuads; }
+  ResultKey key = 0; ///< of all but guides and valences
   /// Components that become the smallest blocks of quads, and a word on them, see countBlocks.
   std::vector<SmallDetail> blocks;
   std::string blocksNotice;
