@@ -168,7 +168,7 @@ bool JointStrips::splitFrom(const ChainPlace& from, bool mayRaise)
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
   {
     const std::optional<QuadPath> chord =
-      chordFrom(quads_, boundary.at({ points[i], points[i + 1] }));
+      chordFrom(topology.twin, boundary.at({ points[i], points[i + 1] }));
     if (!chord)
     {
       continue;

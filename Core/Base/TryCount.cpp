@@ -24,6 +24,8 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
     "components" },
   { "pipeline", "filled faces",
     "faces without a map are cut out, and filled with quads beside those of the rest", "faces" },
+  { "pipeline", "faces by themselves",
+    "quads of a map of such a face alone, made to fit by strips, where they are better", "1" },
   { "pipeline", "others free", "irregular vertices that connections do not join need not stay",
     "1" },
   { "pipeline", "without its guides", "the map is carried without the guides of the finer level",

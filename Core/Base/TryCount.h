@@ -22,6 +22,7 @@ enum class Try : std::uint8_t
   FewerDetails,
   Components,
   FilledFaces,
+  FacesAlone,
   OthersFree,
   WithoutGuides,
   LargerPull,

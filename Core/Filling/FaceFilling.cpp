@@ -4,6 +4,8 @@
 
 #include "Base/Angles.h"
 #include "Base/Lists.h"
+#include "Base/TryCount.h"
+#include "Filling/BoundaryFit.h"
 #include "Filling/FaceGround.h"
 #include "Filling/FaceTriangulation.h"
 #include "Filling/QuadCleanUp.h"
@@ -13,6 +15,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace quadrille
 {
@@ -135,10 +138,28 @@ FaceFill toFill(const FaceQuads& mesh, const std::vector<Index>& pins, Index ver
   return fill;
 }
 
+double meanShape(const FaceQuads& mesh)
+{
+  double sum = 0;
+  for (const std::array<Index, 4>& quad : mesh.quads)
+  {
+    sum += shapeOfQuad(mesh, quad);
+  }
+  return sum / static_cast<double>(mesh.quads.size());
+}
+
+/// The face with the sizes that its pins ask for.
+Mesh withSizes(const Mesh& face, const FaceGround& ground)
+{
+  Mesh sized = face;
+  sized.sizing = std::vector<float>(ground.sizes().begin(), ground.sizes().end());
+  return sized;
+}
+
 } // namespace
 
-std::optional<FaceFill> fillFace(
-  const Mesh& face, const std::vector<std::uint8_t>& isPin, double edgeLength)
+std::optional<FaceFill> fillFace(const Mesh& face, const std::vector<std::uint8_t>& isPin,
+  double edgeLength, const QuadsOfFace& quadsOf)
 {
   if (!validate(face).empty() || isPin.size() != face.vertexCount() || !(edgeLength > 0))
   {
@@ -157,12 +178,31 @@ std::optional<FaceFill> fillFace(
   {
     return one;
   }
+  const auto cleanedUp = [&](FaceQuads quads)
+  {
+    cleanUpQuads(quads, ground);
+    return fillsFace(quads, pins, ground, topology.eulerCharacteristic)
+      ? std::optional<FaceQuads>(std::move(quads))
+      : std::nullopt;
+  };
   FaceTriangles triangles = triangulateFace(face, ground);
-  FaceQuads quads = ownPoints(ground, triangles, pairTriangles(triangles), pins);
-  cleanUpQuads(quads, ground);
-  return fillsFace(quads, pins, ground, topology.eulerCharacteristic)
-    ? std::optional<FaceFill>(toFill(quads, pins, face.vertexCount(), ground))
-    : std::nullopt;
+  std::optional<FaceQuads> best =
+    cleanedUp(ownPoints(ground, triangles, pairTriangles(triangles), pins));
+  if (quadsOf)
+  {
+    countTry(Try::FacesAlone);
+    std::optional<FaceQuads> fitting =
+      fitBoundary(quadsOf(withSizes(face, ground)), face, ground, pins);
+    fitting = fitting ? cleanedUp(std::move(*fitting)) : std::nullopt;
+    // Inverted ones are few, and untangled when the quads of all faces are one mesh.
+    if (fitting && (!best || meanShape(*fitting) > meanShape(*best)))
+    {
+      countTryLed(Try::FacesAlone);
+      best = std::move(fitting);
+    }
+  }
+  return best ? std::optional<FaceFill>(toFill(*best, pins, face.vertexCount(), ground))
+              : std::nullopt;
 }
 
 } // namespace quadrille

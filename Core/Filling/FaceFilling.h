@@ -1,19 +1,25 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Quads for one face of a body whose boundary is given, without a map. It is the answer that always exists: a face
-/// can be filled with quads whenever its boundary has an even number of edges. Its shapes are those of paired
-/// triangles, so a map is to be asked first.
+/// can be filled with quads whenever its boundary has an even number of edges. Where the face has quads by itself, as
+/// of a map of its own, they are made to fit; else its shapes are those of paired triangles.
 #pragma once
 
 #include "Mesh/Mesh.h"
+#include "Quads/QuadMesh.h"
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
 namespace quadrille
 {
+
+/// Quads that a face has by itself, with points of their own on its boundary, see fitBoundary; without any where it has
+/// none. Its sizes are those that its pins ask for, too.
+using QuadsOfFace = std::function<QuadMesh(const Mesh& face)>;
 
 struct FaceFill
 {
@@ -35,10 +41,11 @@ struct FaceFill
 /// Mesh/Sizing.h). Edges come to be about a twentieth shorter. Near pins that stand closer together the quads are
 /// smaller.
 /// A disc with 4 pins becomes one quad, if that is not turned over.
+/// quadsOf: empty, or tried first.
 /// None where the face or the pins are not as said. Else there is an answer: the quads are a manifold with the face's
 /// Euler characteristic, and that is checked. Single quads may be turned over where pins stand several edge lengths
 /// apart on a curved boundary, so that the lines between them leave the face.
-std::optional<FaceFill> fillFace(
-  const Mesh& face, const std::vector<std::uint8_t>& isPin, double edgeLength);
+std::optional<FaceFill> fillFace(const Mesh& face, const std::vector<std::uint8_t>& isPin,
+  double edgeLength, const QuadsOfFace& quadsOf = {});
 
 } // namespace quadrille

@@ -28,8 +28,9 @@ namespace
 class FilledFacesMaker
 {
 public:
-  FilledFacesMaker(const Mesh& mesh, const FaceCurves& curves, double edgeLength)
-    : mesh_(mesh), curves_(curves), edgeLength_(edgeLength),
+  FilledFacesMaker(
+    const Mesh& mesh, const FaceCurves& curves, double edgeLength, const QuadsOfFace& quadsOf)
+    : mesh_(mesh), curves_(curves), edgeLength_(edgeLength), quadsOf_(quadsOf),
       atVertex_(mesh.vertexCount(), kInvalidIndex)
   {
   }
@@ -216,7 +217,7 @@ private:
       pointOf[v] = pointAt_[opened.vertices[v]];
       isPin[v] = pointOf[v] == kInvalidIndex ? 0 : 1;
     }
-    const std::optional<FaceFill> filled = fillFace(face, isPin, edgeLength_);
+    const std::optional<FaceFill> filled = fillFace(face, isPin, edgeLength_, quadsOf_);
     if (!filled)
     {
       made_.failedAt.push_back(face.middleOfFace(0));
@@ -358,6 +359,7 @@ private:
   const Mesh& mesh_;
   const FaceCurves& curves_;
   double edgeLength_;
+  const QuadsOfFace& quadsOf_;
   FilledFaces made_;
   std::vector<Index> atVertex_;                    ///< #V: point of the quads there
   std::map<Index, std::vector<EdgePoint>> onEdge_; ///< by the lower half-edge
@@ -371,9 +373,10 @@ private:
 
 } // namespace
 
-FilledFaces fillFaces(const Mesh& mesh, const FaceCurves& curves, double edgeLength)
+FilledFaces fillFaces(
+  const Mesh& mesh, const FaceCurves& curves, double edgeLength, const QuadsOfFace& quadsOf)
 {
-  return FilledFacesMaker(mesh, curves, edgeLength).make();
+  return FilledFacesMaker(mesh, curves, edgeLength, quadsOf).make();
 }
 
 } // namespace quadrille

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Filling/FaceCurves.h"
+#include "Filling/FaceFilling.h"
 #include "Quads/QuadMesh.h"
 
 #include <cstddef>
@@ -21,7 +22,8 @@ struct FilledFaces
 };
 
 /// The numbers of the curves must have been chosen, and all faces be even. A face between two edges that lie on each
-/// other gets no quads.
-FilledFaces fillFaces(const Mesh& mesh, const FaceCurves& curves, double edgeLength);
+/// other gets no quads. quadsOf: see fillFace.
+FilledFaces fillFaces(
+  const Mesh& mesh, const FaceCurves& curves, double edgeLength, const QuadsOfFace& quadsOf = {});
 
 } // namespace quadrille

@@ -67,6 +67,21 @@ std::vector<Index> halves(const std::vector<double>& area)
 
 } // namespace
 
+SizedPart partOf(const SizedSurface& whole, ComponentPart part, double share)
+{
+  SizedPart made;
+  made.share = share;
+  made.curves = std::move(part.curves);
+  SizedSurface& sized = made.sized;
+  sized.edgeLength = whole.edgeLength;
+  sized.quadsOfWhole = whole.quadsOfAll();
+  sized.targetQuads = static_cast<std::size_t>(
+    std::max(1.0, std::round(share * static_cast<double>(whole.targetQuads))));
+  sized.key = KeyMaker(whole.key).add(part.surface.hash).key();
+  sized.surface = std::make_shared<const PreparedSurface>(std::move(part.surface));
+  return made;
+}
+
 bool isDivided(const SizedSurface& sized, const History& history)
 {
   return sized.surface->components > 1 && !history.hasResult() && !isTooLarge(history.last());
@@ -86,23 +101,17 @@ std::vector<SizedPart> divide(
   std::vector<ComponentPart> surfaces = splitSurface(surface, partOfFace, count, threads);
 
   const double all = std::accumulate(sizes.area.begin(), sizes.area.end(), 0.0);
-  std::vector<SizedPart> parts(count);
+  std::vector<double> share(count, 0);
   for (Index c = 0; c < partOf.size(); ++c)
   {
-    parts[partOf[c]].share += sizes.area[c] / all;
+    share[partOf[c]] += sizes.area[c] / all;
     ++surfaces[partOf[c]].surface.components;
   }
+  std::vector<SizedPart> parts;
   for (std::size_t i = 0; i < count; ++i)
   {
-    SizedSurface& sized = parts[i].sized;
-    sized.edgeLength = whole.edgeLength;
-    sized.hasBeside = whole.hasBeside;
-    sized.quadsOfWhole = whole.quadsOfAll();
-    sized.targetQuads = static_cast<std::size_t>(
-      std::max(1.0, std::round(parts[i].share * static_cast<double>(whole.targetQuads))));
-    sized.key = KeyMaker(whole.key).add(surfaces[i].surface.hash).key();
-    sized.surface = std::make_shared<const PreparedSurface>(std::move(surfaces[i].surface));
-    parts[i].curves = std::move(surfaces[i].curves);
+    parts.push_back(quadrille::partOf(whole, std::move(surfaces[i]), share[i]));
+    parts.back().sized.hasBeside = whole.hasBeside;
   }
   return parts;
 }

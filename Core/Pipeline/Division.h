@@ -4,6 +4,7 @@
 /// are runs of their own, each with all that is tried, and the rest is another.
 #pragma once
 
+#include "Mesh/SurfaceParts.h"
 #include "Pipeline/History.h"
 #include "Pipeline/SizedSurface.h"
 
@@ -20,6 +21,9 @@ struct SizedPart
   double share = 0;   ///< of the whole's area over its sizes
   std::vector<Index> curves; ///< which of the whole's are on it
 };
+
+/// share: of the whole's area over its sizes.
+SizedPart partOf(const SizedSurface& whole, ComponentPart part, double share);
 
 /// Whether the last attempt has failed where the surface can be divided, and not at a limit of the user.
 bool isDivided(const SizedSurface& sized, const History& history);

@@ -7,11 +7,13 @@
 #include "Base/PlaceText.h"
 #include "Filling/FaceCurves.h"
 #include "Filling/FilledFaces.h"
+#include "Mesh/ContentHash.h"
 #include "Mesh/CutOpen.h"
 #include "Mesh/NearestTriangle.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/SurfaceParts.h"
 #include "Mesh/Topology.h"
+#include "Pipeline/PlannedSurface.h"
 #include "Pipeline/RequestsAtCut.h"
 #include "Pipeline/Strategies.h"
 #include "Quads/QuadMoves.h"
@@ -24,6 +26,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -225,7 +228,7 @@ public:
     }
   }
 
-  FilledPart make()
+  FilledPart make(const QuadsOfFace& quadsOf)
   {
     FilledPart made;
     std::vector<Index> odd;
@@ -248,7 +251,7 @@ public:
       }
       return made;
     }
-    FilledFaces filled = fillFaces(cut_.faces.mesh, curves_, edgeLength_);
+    FilledFaces filled = fillFaces(cut_.faces.mesh, curves_, edgeLength_, quadsOf);
     made.quads = std::move(filled.quads);
     made.failedAt = std::move(filled.failedAt);
     made.points = std::move(points_);
@@ -648,25 +651,39 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
   if (hasRest)
   {
     countComponents(parts[1].surface);
-    SizedPart& rest = cut.rest.emplace();
-    rest.share = 1 - cut.share;
-    rest.curves = std::move(parts[1].curves);
-    SizedSurface& sized = rest.sized;
-    sized.edgeLength = whole.edgeLength;
-    sized.hasBeside = true;
-    sized.quadsOfWhole = whole.quadsOfAll();
-    sized.targetQuads = static_cast<std::size_t>(
-      std::max(1.0, std::round(rest.share * static_cast<double>(whole.targetQuads))));
-    sized.key = KeyMaker(whole.key).add(parts[1].surface.hash).key();
-    sized.surface = std::make_shared<const PreparedSurface>(std::move(parts[1].surface));
+    cut.rest = partOf(whole, std::move(parts[1]), 1 - cut.share);
+    cut.rest->sized.hasBeside = true;
   }
   return cut;
 }
 
-FilledPart fillCutFaces(
-  const CutFaces& cut, const Mesh* restMesh, QuadMesh* restQuads, double edgeLength)
+SizedSurface faceAlone(const Mesh& face, const SizedSurface& whole, int threads)
 {
-  return FillingBeside(cut, restMesh, restQuads, edgeLength).make();
+  PreparedSurface surface;
+  surface.mesh = face;
+  std::vector<Index> polygons(face.faceCount());
+  std::iota(polygons.begin(), polygons.end(), Index{ 0 });
+  surface.sourcePolygon = std::move(polygons);
+  surface.sourcePoints = std::vector<std::array<Index, 3>>(face.faceCount());
+  surface.facets = whole.surface->facets;
+  surface.boundingBoxDiagonal = whole.surface->boundingBoxDiagonal;
+  surface.components = 1;
+  surface.hash = contentHash(face, threads);
+  SizedSurface sized;
+  sized.edgeLength = whole.edgeLength;
+  sized.quadsOfWhole = whole.quadsOfAll();
+  sized.targetQuads = predictedQuads(areaOverSizes(surface), whole.edgeLength);
+  sized.isTriedOnce = true;
+  sized.hasBeside = true;
+  sized.key = KeyMaker(whole.key).add(surface.hash).key();
+  sized.surface = std::make_shared<const PreparedSurface>(std::move(surface));
+  return sized;
+}
+
+FilledPart fillCutFaces(const CutFaces& cut, const Mesh* restMesh, QuadMesh* restQuads,
+  double edgeLength, const QuadsOfFace& quadsOf)
+{
+  return FillingBeside(cut, restMesh, restQuads, edgeLength).make(quadsOf);
 }
 
 } // namespace quadrille

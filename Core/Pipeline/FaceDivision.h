@@ -4,6 +4,7 @@
 /// which that was are cut out, and filled with quads once the rest has some.
 #pragma once
 
+#include "Filling/FaceFilling.h"
 #include "Pipeline/Division.h"
 
 #include <array>
@@ -63,9 +64,12 @@ std::vector<Vector3> gapsIn(const QuadMesh& quads);
 /// What to tell of them. quads, all: targetQuads and quadsOfAll of the surface that they are cut from.
 std::string filledText(const CutFaces& cut, std::size_t quads, std::size_t all);
 
+/// A face, with sizes, as a surface of its own, without what is asked of it. One attempt is made at it.
+SizedSurface faceAlone(const Mesh& face, const SizedSurface& whole, int threads);
+
 /// rest: the surface and the quads of the rest, which get strips of quads where an odd number of edges goes round a
-/// face.
-FilledPart fillCutFaces(
-  const CutFaces& cut, const Mesh* restMesh, QuadMesh* restQuads, double edgeLength);
+/// face. quadsOf: see fillFace.
+FilledPart fillCutFaces(const CutFaces& cut, const Mesh* restMesh, QuadMesh* restQuads,
+  double edgeLength, const QuadsOfFace& quadsOf);
 
 } // namespace quadrille

@@ -140,7 +140,13 @@ void makeRounds(RunContext& run, const SizedSurface& sized, std::optional<Plan> 
 /// Of all attempts at a surface, before any has failed.
 WorkBound boundOf(const SizedSurface& sized)
 {
-  return workBound(sized.surface->mesh.faceCount(), sized.targetQuads, sized.work);
+  WorkBound bound = workBound(sized.surface->mesh.faceCount(), sized.targetQuads, sized.work);
+  if (sized.isTriedOnce)
+  {
+    bound.attempts = 1;
+    bound.attemptsOfLastResort = 0;
+  }
+  return bound;
 }
 
 /// The first attempts. What is left of the bound is for those without details that were left.
@@ -284,6 +290,18 @@ bool remeshDivided(const std::vector<Index>& failed, const History& history, Set
   return true;
 }
 
+/// Of a face that is cut out, by itself: mostly it has a map, as what ties its sides to those of others is gone. Without
+/// quads where it has none.
+QuadMesh quadsOfFace(
+  const Mesh& face, const SizedSurface& whole, const RemeshOptions& options, const Asked& asked)
+{
+  SizedSurface sized = faceAlone(face, whole, options.threads);
+  Settled settled = settleDetails(sized, options, asked.store);
+  RemeshResult made;
+  remeshSettled(settled, sized, { asked.frame, options, asked.store, true }, made);
+  return made.status.ok() ? std::move(made.quads) : QuadMesh();
+}
+
 /// Quads for faces that are cut out, beside those of the rest; whether there are some then.
 bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurface& sized,
   const Asked& asked, RemeshResult& result, Failure& failure)
@@ -307,7 +325,8 @@ bool remeshCut(CutFaces cut, const History& history, Settled& settled, SizedSurf
     }
   }
   FilledPart filled = fillCutFaces(cut, cut.rest ? &cut.rest->sized.surface->mesh : nullptr,
-    cut.rest ? &made.quads : nullptr, sized.edgeLength);
+    cut.rest ? &made.quads : nullptr, sized.edgeLength,
+    [&](const Mesh& face) { return quadsOfFace(face, sized, options, asked); });
   failure.places = filled.failedAt;
   if (history.attempts() > 0)
   {

@@ -35,7 +35,8 @@ struct SizedSurface : SizeReport
   Status status; ///< TooLarge where more quads would be made than may
   std::shared_ptr<const PreparedSurface> surface;
   std::size_t work =
-    WorkBound::kNoBound; ///< that its attempts may take, where it is a part of a surface
+    WorkBound::kNoBound;    ///< that its attempts may take, where it is a part of a surface
+  bool isTriedOnce = false; ///< one attempt is made
   bool hasBeside =
     false; ///< faces beside it are filled: quads of both are improved when they are one
   std::size_t quadsOfWhole = 0; ///< of the surface that it is a part of; 0: of none

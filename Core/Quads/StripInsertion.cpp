@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -220,9 +221,8 @@ std::optional<QuadPath> findStripPath(const QuadMesh& mesh,
   return PathSearch(mesh).find(starts, endCost);
 }
 
-std::optional<QuadPath> chordFrom(const QuadMesh& mesh, Index boundaryHalfEdge)
+std::optional<QuadPath> chordFrom(const std::vector<Index>& twin, Index boundaryHalfEdge)
 {
-  const std::vector<Index> twin = analyzeQuads(mesh.quads, mesh.points.size()).twin;
   QuadPath chord;
   std::set<Index> seen;
   for (Index h = boundaryHalfEdge; h != kInvalidIndex; h = twin[oppositeInQuad(h)])
@@ -306,6 +306,42 @@ InsertedStrip splitChord(QuadMesh& mesh, const QuadPath& chord)
   }
   setValences(mesh);
   return strip;
+}
+
+void removeChord(QuadMesh& mesh, const QuadPath& chord, const std::function<int(Index point)>& rank)
+{
+  std::vector<Index> becomes(mesh.points.size());
+  std::iota(becomes.begin(), becomes.end(), Index{ 0 });
+  std::vector<std::uint8_t> isOut(mesh.quads.size(), 0);
+  for (std::size_t i = 0; i <= chord.size(); ++i)
+  {
+    const Index rung = i < chord.size() ? chord[i] : oppositeInQuad(chord.back());
+    const Index a = mesh.origin(rung), b = mesh.target(rung);
+    const Index kept = rank(b) > rank(a) ? b : a;
+    if (rank(a) == rank(b))
+    {
+      mesh.points[kept] = (mesh.points[a] + mesh.points[b]) / 2;
+    }
+    becomes[kept == a ? b : a] = kept;
+    isOut[rung / 4] = 1;
+  }
+  std::size_t count = 0;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+  {
+    if (isOut[q] == 0)
+    {
+      const std::array<Index, 4>& quad = mesh.quads[q];
+      mesh.quads[count] = { becomes[quad[0]], becomes[quad[1]], becomes[quad[2]],
+        becomes[quad[3]] };
+      mesh.quadSourceFace[count] = mesh.quadSourceFace[q];
+      mesh.quadSourceWeights[count] = { 0, 0, 0 };
+      ++count;
+    }
+  }
+  mesh.quads.resize(count);
+  mesh.quadSourceFace.resize(count);
+  mesh.quadSourceWeights.resize(count);
+  setValences(mesh);
 }
 
 InsertedStrip insertStrip(QuadMesh& mesh, const QuadPath& path)

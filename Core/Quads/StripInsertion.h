@@ -38,13 +38,18 @@ struct InsertedStrip
 };
 
 /// The quads across which one comes from an edge of the boundary, always by the opposite edge, to another one: a
-/// half-edge of each, by which one enters. None where the way crosses itself.
-std::optional<QuadPath> chordFrom(const QuadMesh& mesh, Index boundaryHalfEdge);
+/// half-edge of each, by which one enters. twin: of the quads' topology. None where the way crosses itself.
+std::optional<QuadPath> chordFrom(const std::vector<Index>& twin, Index boundaryHalfEdge);
 
 /// Splits all quads of a chord lengthwise, and so the edges of the boundary at both ends. points: the new ones, each
 /// with the origin of the half-edge by which one enters; of the edge at the end with the target of that edge. All lie
 /// at these places. Lines that are crossed are split.
 InsertedStrip splitChord(QuadMesh& mesh, const QuadPath& chord);
+
+/// Takes the quads of a chord out: the points on both sides become one, which is the one of higher rank, or lies in the
+/// middle of two that are equal. The other one has no quads then. Of meshes without lines.
+void removeChord(
+  QuadMesh& mesh, const QuadPath& chord, const std::function<int(Index point)>& rank);
 
 /// Opens the path. New quads are at the end, with the face of the quad on the left and no weights. Features that are
 /// crossed go on over the strip, and the two new edges of the boundary are lines.
