@@ -22,6 +22,8 @@ namespace
 
 /// A point of the quads lies at a pin within so many edge lengths: both are vertices of the face.
 constexpr double kSamePlace = 1e-6;
+/// Edges at a point of the boundary with two quads.
+constexpr int kAlongBoundary = 3;
 /// Of the way to their neighbours across by which both sides of a new strip part.
 constexpr double kPart = 1.0 / 3;
 /// By which the ways of the boundary have come to the points inside.
@@ -156,7 +158,8 @@ private:
           along = std::move(there);
         }
       }
-      if (std::exchange(isTaken[nearest], 1) != 0 || !anchor(loop, loops_[nearest], along))
+      if (std::exchange(isTaken[nearest], 1) != 0 ||
+        !anchor(loop, topology, loops_[nearest], along))
       {
         return false;
       }
@@ -168,9 +171,9 @@ private:
     return true;
   }
 
-  /// Which points of a loop are pins; false where they do not go once round the loop of the face. along: where each may
+  /// Which points of a loop are pins: those in corners, where other than two quads meet. False where they do not go once round the loop of the face. along: where each may
   /// lie, several places where both sides of a slit do.
-  bool anchor(const std::vector<Index>& loop, const FaceLoop& ofFace,
+  bool anchor(const std::vector<Index>& loop, const QuadTopology& topology, const FaceLoop& ofFace,
     const std::vector<std::vector<double>>& along)
   {
     const auto sure = std::find_if(along.begin(), along.end(),
@@ -180,7 +183,8 @@ private:
     for (std::size_t i = 0; i < loop.size(); ++i)
     {
       const Index p = mesh_.origin(loop[(first + i) % loop.size()]);
-      for (Index pin = 0; pin < ofFace.pins.size(); ++pin)
+      const bool isCorner = topology.valence[p] != kAlongBoundary;
+      for (Index pin = 0; isCorner && pin < ofFace.pins.size(); ++pin)
       {
         if (ofFace.onward(ofFace.pinAt[pin], at, within_) >= ofFace.length())
         {

@@ -568,8 +568,8 @@ std::string filledText(const CutFaces& cut, std::size_t quads, std::size_t all)
        << (cut.count == 1 ? " face" : " faces") << " between sharp edges, with "
        << std::setprecision(3) << 100 * share << " % of the area, near "
        << placeText(cut.faces.mesh.middleOfFace(0)) << (cut.count == 1 ? ", has" : ", have")
-       << " no map with quads of this size; the edges are kept, and inside there are quads that "
-          "follow no direction";
+       << " no map beside the others with quads of this size; the edges are kept, and the quads "
+          "inside have more irregular points";
   // Lines are edges of what fills the faces.
   const std::vector<ValenceRequest> unmet = elementsWhere(cut.faces.valenceRequests,
     [](const ValenceRequest& request)

@@ -290,8 +290,8 @@ bool remeshDivided(const std::vector<Index>& failed, const History& history, Set
   return true;
 }
 
-/// Of a face that is cut out, by itself: mostly it has a map, as what ties its sides to those of others is gone. Without
-/// quads where it has none.
+/// Of a face that is cut out, by itself: mostly it has a map, as what ties its sides to those of others is gone.
+/// Without quads where it has none.
 QuadMesh quadsOfFace(
   const Mesh& face, const SizedSurface& whole, const RemeshOptions& options, const Asked& asked)
 {

@@ -47,7 +47,8 @@ int irregularInside(const QuadMesh& mesh)
   int count = 0;
   for (std::size_t p = 0; p < mesh.points.size(); ++p)
   {
-    count += mesh.onBoundary[p] == 0 && mesh.valence[p] != 4 ? 1 : 0;
+    const bool isInside = mesh.onBoundary[p] == 0 && mesh.valence[p] != 0;
+    count += isInside && mesh.valence[p] != 4 ? 1 : 0;
   }
   return count;
 }
@@ -176,7 +177,8 @@ TEST(StripInsertion, AChordIsSplitLengthwise)
   QuadMesh mesh = quadGrid(4, 3);
   mesh.lines.push_back({ 5, 6, 0, false }); // crossed by the chord
   mesh.lines.push_back({ 2, 7, 1, false }); // not
-  const auto chord = chordFrom(mesh, 0);    // from the first edge of the lower side upwards
+  // From the first edge of the lower side upwards.
+  const auto chord = chordFrom(analyzeQuads(mesh.quads, mesh.points.size()).twin, 0);
   ASSERT_TRUE(chord);
   EXPECT_EQ(chord->size(), 3U);
   const InsertedStrip strip = splitChord(mesh, *chord);
@@ -188,6 +190,23 @@ TEST(StripInsertion, AChordIsSplitLengthwise)
   EXPECT_EQ(mesh.lines[1].b, 7U);
   EXPECT_EQ(mesh.lines[0].b, strip.points[1].second);
   EXPECT_EQ(mesh.lines[2].a, strip.points[1].second);
+}
+
+TEST(StripInsertion, AChordIsTakenOut)
+{
+  QuadMesh mesh = quadGrid(4, 3);
+  const auto chord = chordFrom(analyzeQuads(mesh.quads, mesh.points.size()).twin, 0);
+  ASSERT_TRUE(chord);
+  removeChord(mesh, *chord, [](Index p) { return p == 0 ? 1 : 0; });
+  EXPECT_EQ(mesh.quads.size(), 9U);
+  EXPECT_EQ(mesh.quadSourceFace.size(), 9U);
+  const QuadTopology topology = analyzeQuads(mesh.quads, mesh.points.size());
+  EXPECT_EQ(topology.boundaryEdges, 12U);
+  EXPECT_EQ(topology.nonManifoldEdges + topology.nonManifoldVertices, 0U);
+  EXPECT_EQ(topology.isolatedPoints, 4U);
+  EXPECT_EQ(irregularInside(mesh), 0);
+  EXPECT_EQ(mesh.points[0], Vector3(0, 0, 0)); // is of higher rank
+  EXPECT_EQ(mesh.points[5], Vector3(0.5, 1, 0));
 }
 
 } // namespace
