@@ -21,11 +21,11 @@ namespace
 {
 
 /// A point of the quads lies at a pin within so many edge lengths: both are vertices of the face.
-constexpr double kSamePlace = 1e-6;
+constexpr double kAtPin = 1e-6;
 /// Edges at a point of the boundary with two quads.
 constexpr int kAlongBoundary = 3;
 /// Of the way to their neighbours across by which both sides of a new strip part.
-constexpr double kPart = 1.0 / 3;
+constexpr double kApart = 1.0 / 3;
 /// By which the ways of the boundary have come to the points inside.
 constexpr int kSweepsOfWays = 50;
 
@@ -103,7 +103,7 @@ class BoundaryFit
 public:
   BoundaryFit(QuadMesh own, const Mesh& face, const FaceGround& ground)
     : mesh_(std::move(own)), face_(face), ground_(ground), loops_(loopsOf(face, ground)),
-      within_(kSamePlace * ground.edgeLength()), anchor_(mesh_.points.size(), kInvalidIndex)
+      within_(kAtPin * ground.edgeLength()), anchor_(mesh_.points.size(), kInvalidIndex)
   {
     mesh_.lines.clear();
   }
@@ -440,7 +440,7 @@ private:
       Vector3 way = Vector3::Zero();
       for (const Index other : others)
       {
-        way += kPart / static_cast<double>(others.size()) * (mesh_.points[other] - mesh_.points[p]);
+        way += kApart / static_cast<double>(others.size()) * (mesh_.points[other] - mesh_.points[p]);
       }
       mesh_.points[p] += way;
     }
