@@ -76,6 +76,9 @@ std::vector<typename List::value_type> elementsWhere(const List& list, const Pre
   return elements;
 }
 
+/// Names and places that a message tells of, at most, where there may be many.
+constexpr std::size_t kMostTold = 5;
+
 /// "1, 2, 3" of at most so many of the list, with ", ..." where there are more. textOf: of an element.
 template <typename List, typename TextOf>
 std::string joined(const List& list, std::size_t most, const TextOf& textOf)

@@ -21,6 +21,10 @@ constexpr Index kInvalidIndex = std::numeric_limits<Index>::max();
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// What rounding may leave of a length, an area or a weight that is zero, over the largest of its kind, or of the
+/// difference of two that are equal.
+constexpr double kRounding = 1e-9;
+
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 

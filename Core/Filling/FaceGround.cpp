@@ -187,7 +187,7 @@ void FaceGround::measureSizes()
     const Vector3& p = face_.position[v];
     double size = sizeAt(face_, v);
     // Of farther ones none makes it smaller.
-    const double reach = (1 + 1e-9) * (size - finest) / kGrowthFromPins * edgeLength_;
+    const double reach = (1 + kRounding) * (size - finest) / kGrowthFromPins * edgeLength_;
     auto pin = std::lower_bound(pins.begin(), pins.end(), p.x() - reach,
       [](const FinePin& a, double x) { return a.place.x() < x; });
     for (; pin != pins.end() && pin->place.x() <= p.x() + reach; ++pin)

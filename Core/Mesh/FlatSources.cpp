@@ -48,7 +48,7 @@ std::array<double, 3> withoutRounding(std::array<double, 3> weights)
   double sum = 0;
   for (double& weight : weights)
   {
-    weight = weight < kOnTriangleEdge ? 0 : weight;
+    weight = weight < kRounding ? 0 : weight; // on the edge
     sum += weight;
   }
   for (double& weight : weights)

@@ -5,10 +5,13 @@
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/TryCount.h"
+#include "Evaluation/ConstraintMeasures.h"
+#include "Evaluation/LinesInQuads.h"
 #include "Mesh/Distance.h"
 #include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/Notices.h"
 #include "Pipeline/StageRecords.h"
+#include "Quads/QuadSmoothing.h"
 #include "Requests/CurveRequests.h"
 
 #include <algorithm>
@@ -22,10 +25,6 @@ namespace quadrille
 namespace
 {
 
-/// In edge lengths: how far from the end of a connection the irregular vertex may be that it joins.
-constexpr double kReachOfIrregular = 3;
-/// The same by which smoothing moves an irregular vertex, at most.
-constexpr double kSmoothedAway = 2;
 /// Progress of the run with other irregular vertices free.
 const std::string kSecondText =
   "Attempt 2 of at most 2, others free (connections that are not met)";
@@ -75,7 +74,7 @@ struct End
 std::optional<End> endAt(const QuadMesh& quads, double edgeLength, const Vector3& place)
 {
   std::optional<End> end;
-  double least = kReachOfIrregular * edgeLength;
+  double least = kReachOfEnds * edgeLength;
   for (const Index p : irregularInside(quads))
   {
     const double distance = (quads.points[p] - place).norm();
@@ -135,7 +134,7 @@ std::vector<ValencePlace> fixedValences(const SurfaceInput& input)
 void leadTo(const Vector3& point, int valence, double edgeLength, SurfaceInput& input, Vector3& end)
 {
   const std::vector<ValencePlace> fixed = fixedValences(input);
-  if (const ValencePlace* asked = nearestOf(fixed, valence, point, kAsAsked * edgeLength))
+  if (const ValencePlace* asked = nearestOf(fixed, valence, point, kMetDistance * edgeLength))
   {
     end = asked->place;
     return;
@@ -143,7 +142,8 @@ void leadTo(const Vector3& point, int valence, double edgeLength, SurfaceInput& 
   std::vector<ValencePlace>& valences = input.drawn.valences;
   const std::vector<ValencePlace> drifting =
     elementsWhere(valences, [](const ValencePlace& asked) { return asked.mayDrift; });
-  if (const ValencePlace* kept = nearestOf(drifting, valence, point, kSmoothedAway * edgeLength))
+  if (const ValencePlace* kept =
+        nearestOf(drifting, valence, point, kReachOfSmoothing * edgeLength))
   {
     valences.erase(std::find(valences.begin(), valences.end(), *kept));
   }
@@ -237,7 +237,7 @@ void ConnectionEnds::join(CurveRequest& connection, const RemeshResult& without,
     if (!ends[i])
     {
       whyNot = "no irregular vertex, feature or boundary lies within " +
-        std::to_string(static_cast<int>(kReachOfIrregular)) + " quads of " + placeText(*places[i]) +
+        std::to_string(static_cast<int>(kReachOfEnds)) + " quads of " + placeText(*places[i]) +
         ": draw to one, or ask for a valence there";
       return;
     }
@@ -275,7 +275,7 @@ void ConnectionEnds::hold(const RemeshResult& without, const std::set<Index>& jo
     const Vector3& place = without.quads.points[p];
     const int valence = without.quads.valence[p];
     const bool isAsked = joined.count(p) != 0 ||
-      nearestOf(fixed, valence, place, kAsAsked * without.targetEdgeLength) != nullptr;
+      nearestOf(fixed, valence, place, kMetDistance * without.targetEdgeLength) != nullptr;
     if (!isAsked && isOfMap[p] != 0)
     {
       held_.push_back({ place, valence, true });

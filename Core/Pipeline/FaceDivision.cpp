@@ -161,9 +161,8 @@ private:
     }
     if (best)
     {
-      constexpr double rounding = 1e-9;
       const double t = segments_->on(*best, place).weights[1];
-      places.push_back({ halfEdges_[*best], t < rounding ? 0 : 1 - t < rounding ? 1 : t });
+      places.push_back({ halfEdges_[*best], t < kRounding ? 0 : 1 - t < kRounding ? 1 : t });
     }
   }
 

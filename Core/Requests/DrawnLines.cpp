@@ -12,10 +12,6 @@ namespace quadrille
 namespace
 {
 
-constexpr int kTurnsBesideLine = 2;
-/// Vertices of a line lie on its course but for rounding, over the course's diagonal.
-constexpr double kOnCourse = 1e-9;
-
 /// Calls visit(h) for the half-edges that leave the vertex of `first`, counterclockwise from it on. Returns whether
 /// they go all round it.
 template <typename Visitor>
@@ -53,10 +49,10 @@ void forSectorsBeside(const Mesh& mesh, const EdgesOfLine& line, Index h, const 
     return; // on a boundary
   }
   // One that crosses itself has four edges there, and a quarter of the turns between two of them.
-  const int most = sides.size() > 2 ? 1 : kTurnsBesideLine;
+  const int most = sides.size() > 2 ? 1 : kStraightTurns;
   for (const std::vector<Index>& side : sides)
   {
-    const int turns = std::min(most, kTurnsBesideLine / static_cast<int>(side.size()));
+    const int turns = std::min(most, kStraightTurns / static_cast<int>(side.size()));
     for (const Index sector : side)
     {
       if (turns > 0)
@@ -140,7 +136,7 @@ EdgesOfLine edgesOfLine(const Mesh& mesh, const CurveRequest& line)
   EdgesOfLine found{ std::vector<std::uint8_t>(mesh.halfEdgeCount(), 0),
     std::vector<std::uint8_t>(mesh.vertexCount(), 0) };
   const std::vector<Vector3> course = courseOf(line);
-  const double tolerance = kOnCourse * spanOf(course);
+  const double tolerance = kRounding * spanOf(course);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     const Vector3& p = mesh.position[mesh.origin[h]];

@@ -15,8 +15,6 @@ namespace quadrille
 namespace
 {
 
-constexpr int kStraightTurns = 2;
-
 struct MeshSector
 {
   Index first = kInvalidIndex; ///< half-edge

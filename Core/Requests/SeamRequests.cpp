@@ -13,8 +13,6 @@ namespace quadrille
 namespace
 {
 
-constexpr int kStraightSector = 2;
-
 /// Walks along the boundary of a mesh between places.
 class SeamFinder
 {
@@ -125,7 +123,7 @@ std::vector<int> seamSectors(
       if (isFeature[mesh.origin[h]] == 0 && !single)
       {
         sectorTurns.resize(mesh.halfEdgeCount(), 0);
-        sectorTurns[h] = kStraightSector;
+        sectorTurns[h] = kStraightTurns;
       }
     }
   };

@@ -15,8 +15,8 @@ namespace quadrille
 namespace
 {
 
-constexpr int kAlongStraightPart = 2;
-constexpr int kAtItsEnd = 1;
+/// At the end of a straight part.
+constexpr int kCornerTurns = 1;
 
 /// Walks along the boundary of a mesh between places.
 class StraightFinder
@@ -184,13 +184,13 @@ std::vector<int> straightSectors(
     const bool closed = mesh.origin[part.front()] == end;
     for (std::size_t i = 0; i < part.size(); ++i)
     {
-      ask(part[i], closed || i > 0 ? kAlongStraightPart : kAtItsEnd);
+      ask(part[i], closed || i > 0 ? kStraightTurns : kCornerTurns);
     }
     for (Index h = 0; h < mesh.halfEdgeCount() && !closed; ++h)
     {
       if (mesh.isBoundary(h) && mesh.origin[h] == end)
       {
-        ask(h, kAtItsEnd);
+        ask(h, kCornerTurns);
       }
     }
   }

@@ -5,6 +5,7 @@
 #include "Base/PlaceText.h"
 #include "Evaluation/ConstraintMeasures.h"
 #include "Mesh/NearestTriangle.h"
+#include "Quads/QuadSmoothing.h"
 #include "Session/IrregularMatch.h"
 
 #include <algorithm>
@@ -18,9 +19,6 @@ namespace quadrille
 {
 namespace
 {
-
-/// Edge lengths of the quads there within which other irregular points may move.
-constexpr double kReachOfOperation = 2;
 
 /// Places at most at which it is looked whether a later constraint counts.
 constexpr std::size_t kPlacesOfOthers = 400;
@@ -126,7 +124,7 @@ private:
     return withoutMap_ && withoutMap_->at(place, Vector3::Zero(), onWithoutMap_);
   }
   /// Within which an irregular point is where it was.
-  double reachAt(const Vector3& place) { return kReachOfOperation * measures_.edgeLengthAt(place); }
+  double reachAt(const Vector3& place) { return kReachOfSmoothing * measures_.edgeLengthAt(place); }
 
   ConstraintMeasure measureOf(const SessionConstraint& constraint)
   {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/IrregularMatch.h"
 
+#include "Quads/QuadSmoothing.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -171,7 +173,6 @@ std::vector<ValencePlace> expectedIrregular(
 
 ShownPlaces shownPlaces(const std::vector<IrregularVertex>& irregular, const QuadMesh& quads)
 {
-  constexpr double kReachOfSmoothing = 2; // edge lengths
   std::vector<std::uint8_t> isOnLine = quads.onBoundary;
   for (const QuadLine& line : quads.lines)
   {

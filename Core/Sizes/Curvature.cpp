@@ -21,9 +21,6 @@ namespace quadrille
 namespace
 {
 
-/// A curve that turns more at a vertex has a corner there, which is an end of edges whatever their length is.
-constexpr double kCornerTurn = 40 * kPi / 180;
-
 using Cell = std::array<std::int32_t, 3>;
 
 Vector3 areaVector(const Mesh& mesh, Index f)
@@ -172,7 +169,8 @@ public:
     }
     const Vector3 a = mesh_.position[ends_[v][0]] - mesh_.position[v];
     const Vector3 b = mesh_.position[ends_[v][1]] - mesh_.position[v];
-    if (a.norm() > 0 && b.norm() > 0 && std::atan2(a.cross(b).norm(), -a.dot(b)) < kCornerTurn)
+    // A corner is an end of edges whatever their length is.
+    if (a.norm() > 0 && b.norm() > 0 && std::atan2(a.cross(b).norm(), -a.dot(b)) < kCornerAngle)
     {
       bend.turn += a.normalized() + b.normalized();
       bend.length += (a.norm() + b.norm()) / 2;

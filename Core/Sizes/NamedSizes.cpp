@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sizes/NamedSizes.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 #include "Mesh/NearestTriangle.h"
@@ -477,19 +478,14 @@ void refuseUnknownNames(const std::vector<NamedSize>& sizes, const std::vector<b
   refuseIf(names.empty(), what, " is called \"", size.pattern,
     "\", as the surface has no names: take one from the CAD reader, or with the cell array "
     "PatchNames");
-  constexpr std::size_t kMostTold = 5;
   std::vector<std::string> near = names;
   std::stable_sort(near.begin(), near.end(),
     [&](const std::string& a, const std::string& b)
     { return editDistance(size.pattern, a) < editDistance(size.pattern, b); });
   near.resize(std::min(near.size(), kMostTold));
-  std::string list;
-  for (const std::string& name : near)
-  {
-    list += (list.empty() ? "" : ", ") + name;
-  }
   refuse(what, " is called \"", size.pattern, "\"; the nearest of ", names.size(),
-    names.size() == 1 ? " name is " : " names are ", list,
+    names.size() == 1 ? " name is " : " names are ",
+    joined(near, near.size(), [](const std::string& name) { return name; }),
     isLarge ? " (factors above 1 are for faces)" : "");
 }
 
