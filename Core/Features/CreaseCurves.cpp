@@ -35,13 +35,6 @@ double meanOf(const std::vector<double>& values)
     std::max<double>(1, static_cast<double>(values.size()));
 }
 
-double middleValue(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The edges that a map follows and how they go on at vertices.
 class CreaseNetwork
 {
@@ -262,7 +255,7 @@ void measureCurve(const Mesh& mesh, double edgeLength, CreaseCurve& curve)
   }
   curve.angle = meanOf(angles);
   curve.wideAngle = meanOf(wide);
-  curve.roughness = middleValue(rough);
+  curve.roughness = middleOf(rough);
 }
 
 } // namespace

@@ -16,12 +16,8 @@ TriangleList trianglesOf(const Mesh& mesh, const std::vector<Index>& faces)
   TriangleList triangles;
   for (const Index f : faces)
   {
-    const Index first = static_cast<Index>(triangles.points.size());
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
-    {
-      triangles.points.push_back(mesh.position[mesh.origin[h]]);
-    }
-    triangles.corners.push_back({ first, first + 1, first + 2 });
+    const std::array<Vector3, 3> corners = mesh.cornersOfFace(f);
+    triangles.add(corners[0], corners[1], corners[2]);
   }
   return triangles;
 }

@@ -12,27 +12,13 @@ namespace quadrille
 namespace
 {
 
-/// Calls visit(h) for the half-edges that leave the vertex of `first`, counterclockwise from it on. Returns whether
-/// they go all round it.
-template <typename Visitor>
-bool forFanOf(const Mesh& mesh, Index first, const Visitor& visit)
-{
-  Index h = first;
-  do
-  {
-    visit(h);
-    h = mesh.rotateCounterclockwise(h);
-  } while (h != kInvalidIndex && h != first);
-  return h == first;
-}
-
 /// Calls visit(half-edge, turns) for the sectors at the vertex that h, a flagged edge, leaves: those on each side of
 /// the line make two turns together, where so many have room.
 template <typename Visitor>
 void forSectorsBeside(const Mesh& mesh, const EdgesOfLine& line, Index h, const Visitor& visit)
 {
   std::vector<std::vector<Index>> sides;
-  const bool isWhole = forFanOf(mesh, h,
+  const bool isWhole = forEachFrom(mesh, h,
     [&](Index g)
     {
       if (line.edges[g] != 0)

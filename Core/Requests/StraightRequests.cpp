@@ -157,13 +157,14 @@ std::vector<int> straightSectors(
   const auto ask = [&](Index first, int turns)
   {
     std::vector<Index> sectors;
-    for (Index h = first; h != kInvalidIndex; h = mesh.rotateCounterclockwise(h))
-    {
-      if (mesh.isConstrained(h))
+    forEachFrom(mesh, first,
+      [&](Index h)
       {
-        sectors.push_back(h);
-      }
-    }
+        if (mesh.isConstrained(h))
+        {
+          sectors.push_back(h);
+        }
+      });
     if (static_cast<int>(sectors.size()) > turns)
     {
       return;

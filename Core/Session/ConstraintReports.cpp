@@ -33,9 +33,7 @@ TriangleList trianglesOf(const FixedPlaces& fixed)
   TriangleList list;
   for (const std::array<Vector3, 3>& triangle : fixed.withoutMap)
   {
-    const auto first = static_cast<Index>(list.points.size());
-    list.points.insert(list.points.end(), triangle.begin(), triangle.end());
-    list.corners.push_back({ first, first + 1, first + 2 });
+    list.add(triangle[0], triangle[1], triangle[2]);
   }
   return list;
 }

@@ -317,10 +317,9 @@ OnCurves findOnCurves(const MadeSurface& made, int threads)
 {
   const Mesh& mesh = made.surface.mesh;
   OnCurves on;
-  on.vertices.assign(mesh.vertexCount(), 0);
+  on.vertices = constrainedVertices(mesh);
   for (const Index h : constrainedEdges(mesh, threads))
   {
-    on.vertices[mesh.origin[h]] = on.vertices[mesh.target(h)] = 1;
     on.edges.push_back({ made.placeAt(h), made.placeAt(Mesh::next(h)) });
   }
   return on;

@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Pipeline/PlannedSurface.h"
+#include "Quads/QuadShape.h"
 
 #include <algorithm>
 #include <array>
@@ -29,19 +30,10 @@ TriangleList linesOf(const Mesh& mesh, bool boundary)
       boundary ? mesh.isBoundary(h) : !mesh.isBoundary(h) && mesh.isFeature(h) && h < mesh.twin[h];
     if (wanted)
     {
-      const auto first = static_cast<Index>(list.points.size());
-      list.points.push_back(mesh.position[mesh.origin[h]]);
-      list.points.push_back(mesh.position[mesh.target(h)]);
-      list.corners.push_back({ first, first + 1, first + 1 });
+      list.addSegment(mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)]);
     }
   }
   return list;
-}
-
-Vector3 normalOf(const QuadMesh& quads, const std::array<Index, 4>& quad)
-{
-  return (quads.points[quad[2]] - quads.points[quad[0]])
-    .cross(quads.points[quad[3]] - quads.points[quad[1]]);
 }
 
 class ImageFit
@@ -186,7 +178,7 @@ private:
         const Vector3 centre = (quads_.points[quad[0]] + quads_.points[quad[1]] +
                                  quads_.points[quad[2]] + quads_.points[quad[3]]) /
           4;
-        const Vector3 normal = normalOf(quads_, quad);
+        const Vector3 normal = diagonalNormal(cornersOf(quads_.points, quad));
         fit.quadPolygons[q] = surface.sourcePolygon[whole_.nearestFace(centre, normal).triangle];
       });
   }
@@ -226,7 +218,7 @@ std::vector<Vector3> pointNormals(const QuadMesh& quads)
   std::vector<Vector3> normals(quads.points.size(), Vector3::Zero());
   for (const std::array<Index, 4>& quad : quads.quads)
   {
-    const Vector3 normal = normalOf(quads, quad);
+    const Vector3 normal = diagonalNormal(cornersOf(quads.points, quad));
     for (const Index corner : quad)
     {
       normals[corner] += normal;

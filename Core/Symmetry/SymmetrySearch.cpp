@@ -3,6 +3,7 @@
 #include "Symmetry/SymmetrySearch.h"
 
 #include "Base/Angles.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 
 #include <Eigen/Eigenvalues>
@@ -156,9 +157,7 @@ double medianOf(const Places& places)
   {
     distances.push_back(place.distance);
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return middleOf(distances);
 }
 
 /// Unit vectors: the axes, others between two of them, as where two moments are equal any could be the one asked for,
