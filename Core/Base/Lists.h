@@ -85,20 +85,6 @@ Value middleOf(std::vector<Value>& values)
   return *middle;
 }
 
-/// Calls visit(begin, end) for the runs of equal elements of a list that is sorted, as places in it. areSame: of two.
-template <typename List, typename Same, typename Visitor>
-void forEachRun(const List& sorted, const Same& areSame, const Visitor& visit)
-{
-  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end)
-  {
-    while (end < sorted.size() && areSame(sorted[begin], sorted[end]))
-    {
-      ++end;
-    }
-    visit(begin, end);
-  }
-}
-
 /// Names and places that a message tells of, at most, where there may be many.
 constexpr std::size_t kMostTold = 5;
 

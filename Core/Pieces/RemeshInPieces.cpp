@@ -482,7 +482,7 @@ PiecesResult remeshInPieces(
   catch (const Cancelled&)
   {
     result = {};
-    result.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    result.remeshed.becomeStopped();
   }
   return result;
 }

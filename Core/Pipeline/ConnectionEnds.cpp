@@ -10,7 +10,6 @@
 #include "Mesh/Distance.h"
 #include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/Notices.h"
-#include "Pipeline/StageRecords.h"
 #include "Quads/QuadSmoothing.h"
 #include "Requests/CurveRequests.h"
 
@@ -194,11 +193,7 @@ bool ConnectionEnds::findIn(RemeshResult& without)
   isMissing_ = false;
   if (!without.stopped.empty())
   {
-    // Quads without the connections are none that were asked for.
-    const RunEstimate estimated = without.estimate;
-    without = {};
-    without.estimate = estimated;
-    without.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    without.becomeStopped(); // its quads are none that were asked for
   }
   if (!without.status.ok())
   {
@@ -285,8 +280,7 @@ void ConnectionEnds::hold(const RemeshResult& without, const std::set<Index>& jo
 
 bool ConnectionEnds::mayFreeOthers(const RemeshResult& made) const
 {
-  const bool isOver = !made.stopped.empty() || made.status.code == StatusCode::Cancelled ||
-    made.status.code == StatusCode::TooLarge;
+  const bool isOver = made.wasStopped() || made.status.code == StatusCode::TooLarge;
   return !held_.empty() && !isOver && (!made.status.ok() || countMet(made) < made.curves.size());
 }
 
@@ -308,8 +302,7 @@ bool ConnectionEnds::isBetter(RemeshResult& free, RemeshResult& held)
   made.attempts = std::move(attempts);
   ++taken_.tries.taken[static_cast<std::size_t>(Try::OthersFree)];
   made.tries.led[static_cast<std::size_t>(Try::OthersFree)] += isBetter ? 1 : 0;
-  const bool wasStopped = free.status.code == StatusCode::Cancelled || !free.stopped.empty();
-  if (!isBetter && wasStopped && held.status.ok())
+  if (!isBetter && free.wasStopped() && held.status.ok())
   {
     held.stopped = kSecondText;
     held.notices.push_back(stoppedText(held.stopped));
@@ -319,10 +312,7 @@ bool ConnectionEnds::isBetter(RemeshResult& free, RemeshResult& held)
 
 void ConnectionEnds::take(const RemeshResult& made)
 {
-  StageRecords stages;
-  stages.add(taken_.stages);
-  stages.add(made.stages);
-  taken_.stages = stages.all();
+  stages_.add(made.stages);
   taken_.tries.addTaken(made.tries);
   taken_.work += made.work;
   taken_.decimations += made.decimations;
@@ -331,16 +321,10 @@ void ConnectionEnds::take(const RemeshResult& made)
 
 void ConnectionEnds::tell(RemeshResult& result) const
 {
-  StageRecords stages;
-  stages.add(taken_.stages);
+  eraseIf(result.reused, [this](const std::string& stage) { return stages_.has(stage); });
+  StageRecords stages = stages_;
   stages.add(result.stages);
   result.stages = stages.all();
-  eraseIf(result.reused,
-    [&](const std::string& stage)
-    {
-      return std::any_of(taken_.stages.begin(), taken_.stages.end(),
-        [&](const StageRecord& record) { return record.stage == stage; });
-    });
   result.tries.addTaken(taken_.tries);
   result.work += taken_.work;
   result.decimations += taken_.decimations;

@@ -172,21 +172,14 @@ private:
   static UncutResult stopped()
   {
     UncutResult none;
-    none.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    none.remeshed.becomeStopped();
     return none;
-  }
-
-  static bool failsAltogether(const UncutResult& made)
-  {
-    const Status& status = made.remeshed.status;
-    return !status.ok() && status.code != StatusCode::Cancelled &&
-      status.code != StatusCode::TooLarge;
   }
 
   /// Altogether, or in more components than without what was drawn.
   bool fails(const UncutResult& made) const
   {
-    return failsAltogether(made) || made.remeshed.failed.components > withoutQuads_;
+    return made.remeshed.failsAsAsked() || made.remeshed.failed.components > withoutQuads_;
   }
 
   /// Whether it fails altogether without the rest; else it is known then how many components do.
@@ -209,7 +202,7 @@ private:
     {
       known_.store->put(key, std::make_shared<std::size_t>(withoutQuads_), sizeof(std::size_t));
     }
-    return failsAltogether(without);
+    return without.remeshed.failsAsAsked();
   }
 
   /// The first `count` of the rest.
@@ -235,8 +228,7 @@ private:
     UncutResult made = asksForMoves(made_)
       ? remeshWithMoves(input, options_, run_, known_, made_, notices_)
       : run_(std::move(input), options_);
-    wasStopped_ =
-      made.remeshed.status.code == StatusCode::Cancelled || !made.remeshed.stopped.empty();
+    wasStopped_ = made.remeshed.wasStopped();
     return made;
   }
 
