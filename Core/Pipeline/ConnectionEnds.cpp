@@ -31,11 +31,7 @@ const std::string kSecondText =
 /// Points inside, off features.
 std::vector<Index> irregularInside(const QuadMesh& quads)
 {
-  std::vector<std::uint8_t> isOnCurve = quads.onBoundary;
-  for (const QuadLine& line : quads.lines)
-  {
-    isOnCurve[line.a] = isOnCurve[line.b] = 1;
-  }
+  const std::vector<std::uint8_t> isOnCurve = pointsOnCurves(quads);
   return idsWhere(quads.points.size(),
     [&](Index p)
     {

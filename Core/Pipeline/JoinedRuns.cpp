@@ -305,21 +305,12 @@ void JoinedRuns::addFilled(const CutFaces& cut, FilledPart filled)
   {
     stands[p] = one;
   }
-  std::vector<Index> newId(stands.size(), kInvalidIndex);
-  Index kept = 0;
+  std::vector<std::uint8_t> isKept(stands.size(), 0);
   for (Index p = 0; p < stands.size(); ++p)
   {
-    if (stands[p] == p)
-    {
-      all.points[kept] = all.points[p];
-      all.sourceFace[kept] = all.sourceFace[p];
-      all.sourceWeights[kept] = all.sourceWeights[p];
-      newId[p] = kept++;
-    }
+    isKept[p] = stands[p] == p ? 1 : 0;
   }
-  all.points.resize(kept);
-  all.sourceFace.resize(kept);
-  all.sourceWeights.resize(kept);
+  const std::vector<Index> newId = keepPoints(all, isKept);
   for (std::array<Index, 4>& quad : all.quads)
   {
     for (Index& p : quad)

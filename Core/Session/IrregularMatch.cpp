@@ -173,11 +173,7 @@ std::vector<ValencePlace> expectedIrregular(
 
 ShownPlaces shownPlaces(const std::vector<IrregularVertex>& irregular, const QuadMesh& quads)
 {
-  std::vector<std::uint8_t> isOnLine = quads.onBoundary;
-  for (const QuadLine& line : quads.lines)
-  {
-    isOnLine[line.a] = isOnLine[line.b] = 1;
-  }
+  const std::vector<std::uint8_t> isOnLine = pointsOnCurves(quads);
   std::vector<double> length(quads.points.size(), 0), edges(quads.points.size(), 0);
   for (const std::array<Index, 4>& quad : quads.quads)
   {
