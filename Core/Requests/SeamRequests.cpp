@@ -18,7 +18,7 @@ class SeamFinder
 {
 public:
   SeamFinder(const Mesh& mesh, const std::vector<SeamRequest>& requests)
-    : mesh_(mesh), isEnd_(mesh.vertexCount(), 0), boundary_(mesh)
+    : isEnd_(mesh.vertexCount(), 0), boundary_(mesh)
   {
     for (const SeamRequest& request : requests)
     {
@@ -48,25 +48,11 @@ public:
   const std::vector<Index>& ends() const { return ends_; }
 
 private:
-  /// The boundary up to the next end; none where that is another one.
   std::vector<Index> walk(Index from, Index to) const
   {
-    std::vector<Index> edges;
-    Index v = from;
-    do
-    {
-      const Index h = v == kInvalidIndex ? kInvalidIndex : boundary_.outgoing(v);
-      if (h == kInvalidIndex)
-      {
-        return {};
-      }
-      edges.push_back(h);
-      v = mesh_.target(h);
-    } while (isEnd_[v] == 0);
-    return v == to ? edges : std::vector<Index>{};
+    return boundary_.walk(from, to, [this](Index v) { return isEnd_[v] != 0; });
   }
 
-  const Mesh& mesh_;
   std::vector<Index> ends_; ///< four a request
   std::vector<std::uint8_t> isEnd_;
   BoundaryPlaces boundary_;

@@ -48,15 +48,7 @@ private:
   /// All round where both are the same.
   std::vector<Index> walk(Index from, Index to) const
   {
-    std::vector<Index> edges;
-    Index v = from;
-    do
-    {
-      const Index h = boundary_.outgoing(v);
-      edges.push_back(h);
-      v = mesh_.target(h);
-    } while (v != to && v != from);
-    return v == to ? edges : std::vector<Index>{};
+    return boundary_.walk(from, to, [&](Index v) { return v == to || v == from; });
   }
 
   double distance(const std::vector<Index>& edges, const Vector3& place) const
