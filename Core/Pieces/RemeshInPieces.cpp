@@ -373,7 +373,7 @@ private:
     const QuadMesh& quads = result_.remeshed.quads;
     result_.pointSource.resize(quads.points.size());
     result_.quadSource.resize(quads.quads.size());
-    std::vector<std::vector<PiecePlace>> places(parts_.size());
+    std::vector<std::vector<FacePlace>> places(parts_.size());
     std::vector<std::vector<std::size_t>> whose(parts_.size());
     const SourceTriangles source{ joined.surface.polygonPoints, joined.surface.points };
     const PlacesOfQuads found = placesOfQuads(result_.remeshed.surface, quads, source);
@@ -397,7 +397,7 @@ private:
   }
 
   void carryPart(
-    std::size_t p, const std::vector<PiecePlace>& places, const std::vector<std::size_t>& whose)
+    std::size_t p, const std::vector<FacePlace>& places, const std::vector<std::size_t>& whose)
   {
     if (places.empty())
     {
