@@ -313,15 +313,7 @@ private:
     std::vector<StageRecord> sums;
     for (const Part& part : parts_)
     {
-      const std::vector<StageRecord>& records = part.piece->stages().all();
-      sums.resize(std::max(sums.size(), records.size()));
-      for (std::size_t i = 0; i < records.size(); ++i)
-      {
-        sums[i].stage = records[i].stage;
-        sums[i].seconds += records[i].seconds;
-        sums[i].elementsIn += records[i].elementsIn;
-        sums[i].elementsOut += records[i].elementsOut;
-      }
+      addPart(part.piece->stages().all(), sums);
     }
     return sums;
   }
