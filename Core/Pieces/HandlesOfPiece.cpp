@@ -117,7 +117,7 @@ void HandlesOfPiece::findNewVertices(const PreparedSurface& surface)
   }
 }
 
-std::optional<Vector3> HandlesOfPiece::offInput(const FacePlace& place) const
+std::optional<Vector3> HandlesOfPiece::offInput(const SurfacePoint& place) const
 {
   const auto found = std::lower_bound(offFaces_.begin(), offFaces_.end(), place.face,
     [](const OffFace& off, Index face) { return off.face < face; });

@@ -16,7 +16,7 @@ constexpr double kSameSpot = 1e-6;
 
 } // namespace
 
-std::optional<FacePlace> placeOnSource(const PreparedSurface& mapped, Index face,
+std::optional<SurfacePoint> placeOnSource(const PreparedSurface& mapped, Index face,
   const std::array<double, 3>& weights, const SourceTriangles& source, const Vector3* point)
 {
   const SourceLocation at = mapped.locate(face, weights);
@@ -25,7 +25,7 @@ std::optional<FacePlace> placeOnSource(const PreparedSurface& mapped, Index face
     return std::nullopt;
   }
   const Index* const corners = &source.corners[3 * std::size_t{ at.polygon }];
-  FacePlace found;
+  SurfacePoint found;
   found.face = at.polygon;
   Vector3 place = Vector3::Zero();
   double sum = 0, size = 0;

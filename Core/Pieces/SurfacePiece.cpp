@@ -91,17 +91,17 @@ void SurfacePiece::thinOut(const std::vector<Index>& shared)
   letGo();
 }
 
-std::vector<CarriedPlace> SurfacePiece::carry(const std::vector<FacePlace>& places)
+std::vector<CarriedPlace> SurfacePiece::carry(const std::vector<SurfacePoint>& places)
 {
   Stopwatch watch;
-  const std::vector<FacePlace> onPiece =
+  const std::vector<SurfacePoint> onPiece =
     carryPlaces(level_, log_, log_.rounds.size(), places, options_.threads, options_.progress);
   stages_.add("carry", watch.lap(), places.size(), places.size());
   log_ = {};
   level_ = {};
   std::vector<CarriedPlace> result(places.size());
   std::transform(onPiece.begin(), onPiece.end(), result.begin(),
-    [this](const FacePlace& place) {
+    [this](const SurfacePoint& place) {
       return CarriedPlace{ surface_.locate(place.face, place.weights), handles_.offInput(place) };
     });
   return result;

@@ -118,7 +118,7 @@ public:
 
   /// Where places of level() lie on the piece, one each. Throws InvalidInput for a triangle out of range. To be called
   /// once: it uses the log up.
-  std::vector<CarriedPlace> carry(const std::vector<FacePlace>& places);
+  std::vector<CarriedPlace> carry(const std::vector<SurfacePoint>& places);
 
   /// Bytes held now.
   std::size_t bytes() const;
