@@ -92,23 +92,6 @@ std::optional<End> endAt(const QuadMesh& quads, double edgeLength, const Vector3
   return end;
 }
 
-/// Of the places with this valence the nearest one to p, at most so far away; null: none.
-const ValencePlace* nearestOf(
-  const std::vector<ValencePlace>& valences, int valence, const Vector3& p, double within)
-{
-  const ValencePlace* nearest = nullptr;
-  for (const ValencePlace& asked : valences)
-  {
-    const double distance = (asked.place - p).norm();
-    if (asked.valence == valence && distance <= within)
-    {
-      within = distance;
-      nearest = &asked;
-    }
-  }
-  return nearest;
-}
-
 /// Valences that are asked for at places and points, but for those that may drift.
 std::vector<ValencePlace> fixedValences(const SurfaceInput& input)
 {

@@ -222,6 +222,22 @@ std::vector<ValencePlace> withEnds(
   return valences;
 }
 
+const ValencePlace* nearestOf(
+  const std::vector<ValencePlace>& valences, int valence, const Vector3& p, double within)
+{
+  const ValencePlace* nearest = nullptr;
+  for (const ValencePlace& asked : valences)
+  {
+    const double distance = (asked.place - p).norm();
+    if (asked.valence == valence &&
+      (nearest == nullptr ? distance <= within : distance < (nearest->place - p).norm()))
+    {
+      nearest = &asked;
+    }
+  }
+  return nearest;
+}
+
 bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
   double edgeLength, int threads, std::vector<std::string>& notices)
 {

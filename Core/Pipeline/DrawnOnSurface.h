@@ -35,6 +35,10 @@ void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& d
 std::vector<ValencePlace> withEnds(
   std::vector<ValencePlace> valences, const std::vector<CurveRequest>& curves, double edgeLength);
 
+/// Of the places with this valence the nearest one to p, at most so far away; null: none.
+const ValencePlace* nearestOf(
+  const std::vector<ValencePlace>& valences, int valence, const Vector3& p, double within);
+
 /// Valences at places, on the triangles as they are to stay. Whether vertices were added to these.
 bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
   double edgeLength, int threads, std::vector<std::string>& notices);
