@@ -3,6 +3,7 @@
 #include "Requests/DrawnLines.h"
 
 #include "Mesh/Distance.h"
+#include "Requests/SurfacePlaces.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -73,18 +74,6 @@ std::vector<Vector3> courseOf(const CurveRequest& line)
   return course;
 }
 
-/// The diagonal of its box.
-double spanOf(const std::vector<Vector3>& course)
-{
-  Vector3 low = course.front(), high = low;
-  for (const Vector3& p : course)
-  {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).norm();
-}
-
 bool isOnCourse(const std::vector<Vector3>& course, const Vector3& p, double tolerance)
 {
   for (std::size_t i = 0; i + 1 < course.size(); ++i)
@@ -122,7 +111,7 @@ EdgesOfLine edgesOfLine(const Mesh& mesh, const CurveRequest& line)
   EdgesOfLine found{ std::vector<std::uint8_t>(mesh.halfEdgeCount(), 0),
     std::vector<std::uint8_t>(mesh.vertexCount(), 0) };
   const std::vector<Vector3> course = courseOf(line);
-  const double tolerance = kRounding * spanOf(course);
+  const double tolerance = kRounding * diagonalOf(course);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     const Vector3& p = mesh.position[mesh.origin[h]];

@@ -30,15 +30,15 @@ double meanEdge(const SurfaceInput& input, Index polygon)
   return sum / std::max<Index>(corners, 1);
 }
 
-double diagonalOf(const SurfaceInput& input)
+double diagonalOf(const std::vector<Vector3>& points)
 {
-  if (input.points.empty())
+  if (points.empty())
   {
     return 0;
   }
-  Vector3 low = input.points.front();
+  Vector3 low = points.front();
   Vector3 high = low;
-  for (const Vector3& p : input.points)
+  for (const Vector3& p : points)
   {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
@@ -99,7 +99,7 @@ void requirePolygons(const SurfaceInput& input)
 }
 
 SurfacePlaces::SurfacePlaces(const SurfaceInput& input, int threads)
-  : input_(input), threads_(threads), diagonal_(diagonalOf(input))
+  : input_(input), threads_(threads), diagonal_(diagonalOf(input.points))
 {
   requirePolygons(input);
 }

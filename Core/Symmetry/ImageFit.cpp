@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Pipeline/PlannedSurface.h"
+#include "Quads/QuadProjection.h"
 #include "Quads/QuadShape.h"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ public:
 
   FittedImages run()
   {
-    normals_ = pointNormals(quads_);
+    normals_ = pointNormals(quads_.points, quads_.quads);
     findLines();
     targets_.assign(
       quads_.points.begin() + static_cast<std::ptrdiff_t>(first_), quads_.points.end());
@@ -211,20 +212,6 @@ NearestTriangle::Place SearchedSurface::nearestFace(const Vector3& p, const Vect
 std::size_t SearchedSurface::bytes() const
 {
   return bytesOf(surface) + faces.bytes() + features.bytes() + boundary.bytes();
-}
-
-std::vector<Vector3> pointNormals(const QuadMesh& quads)
-{
-  std::vector<Vector3> normals(quads.points.size(), Vector3::Zero());
-  for (const std::array<Index, 4>& quad : quads.quads)
-  {
-    const Vector3 normal = diagonalNormal(cornersOf(quads.points, quad));
-    for (const Index corner : quad)
-    {
-      normals[corner] += normal;
-    }
-  }
-  return normals;
 }
 
 FittedImages fitImages(
