@@ -235,14 +235,13 @@ private:
   /// r: in the rest.
   void leaveOut(std::size_t r)
   {
-    std::vector<std::string> before;
-    std::transform(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(r),
-      std::back_inserter(before), [this](std::size_t i) { return nameOfPlaced(placed_[i]); });
     const UncutResult with = runWithout(withFirst(r + 1));
     isLeftOut_[rest_[r]] = true;
     const std::string lost = with.remeshed.failed.lostText(withoutQuads_);
-    whyNot_.emplace_back(
-      rest_[r], cannotBeMet(before, lost.empty() ? with.remeshed.status.message : lost));
+    whyNot_.emplace_back(rest_[r],
+      cannotBeMet(
+        r, [this](std::size_t i) { return nameOfPlaced(placed_[rest_[i]]); },
+        lost.empty() ? with.remeshed.status.message : lost));
     rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(r));
   }
 
@@ -262,16 +261,6 @@ private:
 };
 
 } // namespace
-
-std::string cannotBeMet(const std::vector<std::string>& before, const std::string& reason)
-{
-  std::string others;
-  for (const std::string& name : before)
-  {
-    others += (others.empty() ? " together with " : ", ") + name;
-  }
-  return "it cannot be met" + others + ": " + reason;
-}
 
 SurfaceInput withoutDrawn(const SurfaceInput& input, const std::vector<bool>& isLeftOut,
   std::vector<PlacedConstraint>& placed)

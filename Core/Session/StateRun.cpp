@@ -379,10 +379,8 @@ private:
     const int id = state_.constraints[rest[*last]]->id;
     without.erase(id);
     const std::string whyNot = reasonOf(runWith(without));
-    std::vector<std::string> before;
-    std::transform(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(*last),
-      std::back_inserter(before), [this](std::size_t i) { return state_.constraints[i]->name(); });
-    return std::make_pair(id, cannotBeMet(before, whyNot));
+    const auto nameOfRest = [&](std::size_t i) { return state_.constraints[rest[i]]->name(); };
+    return std::make_pair(id, cannotBeMet(*last, nameOfRest, whyNot));
   }
 
   SessionData& data_;
