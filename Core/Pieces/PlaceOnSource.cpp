@@ -8,14 +8,6 @@
 
 namespace quadrille
 {
-namespace
-{
-
-/// By how much a point may be off the place that its source names, over the size of the triangle.
-constexpr double kSameSpot = 1e-6;
-
-} // namespace
-
 std::optional<SurfacePoint> placeOnSource(const PreparedSurface& mapped, Index face,
   const std::array<double, 3>& weights, const SourceTriangles& source, const Vector3* point)
 {
@@ -42,7 +34,9 @@ std::optional<SurfacePoint> placeOnSource(const PreparedSurface& mapped, Index f
     place += weight * source.points[corners[k]];
     size = std::max(size, (source.points[corners[k]] - source.points[corners[0]]).norm());
   }
-  if (!(sum > 0) || (point != nullptr && !((place / sum - *point).norm() <= kSameSpot * size)))
+  // Or the point is off the place that its source names.
+  if (!(sum > 0) ||
+    (point != nullptr && !((place / sum - *point).norm() <= kRoundingOfSingle * size)))
   {
     return std::nullopt;
   }

@@ -33,8 +33,6 @@ namespace quadrille
 namespace
 {
 
-/// Points of the quads on the boundary lie on that of the faces, up to rounding; in edge lengths.
-constexpr double kSameBoundary = 1e-6;
 /// Quads get so many strips at most.
 constexpr std::size_t kMostStrips = 100;
 
@@ -291,7 +289,7 @@ private:
     for (const auto& [p, beside] : neighbours)
     {
       const std::vector<CurvePoint> places =
-        boundary_->at(*restQuads_, p, kSameBoundary * edgeLength_);
+        boundary_->at(*restQuads_, p, kRoundingOfSingle * edgeLength_);
       if (!places.empty())
       {
         onShared.emplace(p, places);
@@ -515,7 +513,7 @@ bool addFacesAt(const std::vector<Vector3>& places, const SizedSurface& whole, F
   const NearestTriangle triangles(trianglesOf(mesh));
   for (const Vector3& place : places)
   {
-    for (const Index f : triangles.within(place, kSameBoundary * whole.edgeLength))
+    for (const Index f : triangles.within(place, kRoundingOfSingle * whole.edgeLength))
     {
       if (isFailed[labels[f]] == 0)
       {
@@ -626,7 +624,7 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
   std::vector<ComponentPart> parts = splitSurface(opened, partOfFace, hasRest ? 2 : 1, threads);
   if (hasRest)
   {
-    divideCurves(*whole.surface, isOutFace, kSameBoundary * whole.edgeLength, parts);
+    divideCurves(*whole.surface, isOutFace, kRoundingOfSingle * whole.edgeLength, parts);
   }
   cut.faces = std::move(parts[0].surface);
   cut.curves = std::move(parts[0].curves);

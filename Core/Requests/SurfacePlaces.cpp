@@ -214,14 +214,13 @@ SurfacePlaces::Place SurfacePlaces::nearestPlace(const Vector3& p) const
 
 bool SurfacePlaces::isOnBoundary(const Place& place) const
 {
-  constexpr double kOnBoundaryEdge = 1e-6; // of the polygon's mean edge
   struct Edge
   {
     Vector3 a, b;
     int polygons = 0;
   };
   std::vector<Edge> edges; // at the place
-  const double near = kOnBoundaryEdge * meanEdge(input_, place.polygon);
+  const double near = kRoundingOfSingle * meanEdge(input_, place.polygon);
   for (std::size_t polygon = 0; polygon + 1 < input_.polygonOffsets.size(); ++polygon)
   {
     const Index begin = input_.polygonOffsets[polygon];
