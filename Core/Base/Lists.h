@@ -24,6 +24,17 @@ void sortUnique(List& list)
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+/// The same by keys, of which each keeps the first element.
+template <typename List, typename KeyOf>
+void sortUniqueBy(List& list, const KeyOf& keyOf)
+{
+  std::stable_sort(
+    list.begin(), list.end(), [&](const auto& a, const auto& b) { return keyOf(a) < keyOf(b); });
+  list.erase(std::unique(list.begin(), list.end(),
+               [&](const auto& a, const auto& b) { return keyOf(a) == keyOf(b); }),
+    list.end());
+}
+
 /// Where a value stands among ascending ones that have it.
 template <typename Values>
 Index indexIn(const Values& values, Index value)

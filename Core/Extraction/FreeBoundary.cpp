@@ -291,13 +291,9 @@ void dropHalfLines(
     const Index b = pointOf[line.b];
     whole.emplace(std::min(a, b), std::max(a, b));
   }
-  mesh.lines.erase(std::remove_if(mesh.lines.begin(), mesh.lines.end(),
-                     [&](const QuadLine& line)
-                     {
-                       return isFeature(line) &&
-                         whole.count({ std::min(line.a, line.b), std::max(line.a, line.b) }) == 0;
-                     }),
-    mesh.lines.end());
+  eraseIf(mesh.lines,
+    [&](const QuadLine& line)
+    { return isFeature(line) && whole.count(std::minmax(line.a, line.b)) == 0; });
 }
 
 } // namespace

@@ -387,12 +387,8 @@ private:
   /// Both sides of a feature, and the quads beside a polygon, may have told the same line.
   void sortLines()
   {
-    const auto key = [](const QuadLine& l) { return std::make_tuple(l.a, l.b, l.boundary); };
-    std::stable_sort(mesh_.lines.begin(), mesh_.lines.end(),
-      [&](const QuadLine& l, const QuadLine& m) { return key(l) < key(m); });
-    mesh_.lines.erase(std::unique(mesh_.lines.begin(), mesh_.lines.end(),
-                        [&](const QuadLine& l, const QuadLine& m) { return key(l) == key(m); }),
-      mesh_.lines.end());
+    sortUniqueBy(
+      mesh_.lines, [](const QuadLine& l) { return std::make_tuple(l.a, l.b, l.boundary); });
   }
 
   /// A vertex on the side of a cell divides the line that ran along it.

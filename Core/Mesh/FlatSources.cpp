@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/FlatSources.h"
 
+#include "Base/Lists.h"
+
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -136,13 +138,8 @@ std::vector<FlatSources::Triangle> FlatSources::triangles() const
       found.push_back({ before_.sourcePolygon[f], before_.sourcePoints[f] });
     }
   }
-  const auto key = [](const Triangle& triangle)
-  { return std::pair(triangle.polygon, triangle.points); };
-  std::sort(found.begin(), found.end(),
-    [&](const Triangle& a, const Triangle& b) { return key(a) < key(b); });
-  found.erase(std::unique(found.begin(), found.end(),
-                [&](const Triangle& a, const Triangle& b) { return key(a) == key(b); }),
-    found.end());
+  sortUniqueBy(
+    found, [](const Triangle& triangle) { return std::pair(triangle.polygon, triangle.points); });
   return found;
 }
 

@@ -83,7 +83,7 @@ std::vector<Index> seamVertices(const Mesh& mesh, const std::vector<SeamRequest>
   }
   std::vector<Index> vertices = SeamFinder(mesh, requests).ends();
   sortUnique(vertices);
-  vertices.erase(std::remove(vertices.begin(), vertices.end(), kInvalidIndex), vertices.end());
+  eraseIf(vertices, [](Index v) { return v == kInvalidIndex; });
   return vertices;
 }
 

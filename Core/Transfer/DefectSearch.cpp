@@ -72,8 +72,7 @@ std::vector<Index> DefectSearch::findAmong(
     }
   }
   sortUnique(faces);
-  faces.erase(
-    std::remove_if(faces.begin(), faces.end(), [&](Index f) { return !isDefect(f); }), faces.end());
+  eraseIf(faces, [&](Index f) { return !isDefect(f); });
   return faces;
 }
 
