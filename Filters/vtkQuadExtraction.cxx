@@ -145,7 +145,7 @@ void findOnFlatTriangles(
     double corner[9];
     ancestry.weights->GetTuple(face, corner);
     return std::any_of(
-      corner, corner + 9, [](double weight) { return weight < -quadrille::kOnTriangleEdge; });
+      corner, corner + 9, [](double weight) { return weight < -quadrille::kRounding; });
   };
   const auto placeIn = [&](Index face, const Weights& weights)
   {

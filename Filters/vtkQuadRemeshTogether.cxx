@@ -148,7 +148,7 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
     }
     else if (this->TargetType == TARGET_RELATIVE_EDGE_LENGTH && !options.edgeLength)
     {
-      options.edgeLength = this->RelativeEdgeLength * quadrille::diagonalOf(joined.input);
+      options.edgeLength = this->RelativeEdgeLength * quadrille::diagonalOf(joined.input.points);
     }
   }
   quadrille::RemeshResult result;

@@ -8,6 +8,7 @@
 #include "Base/Progress.h"
 #include "Mesh/Distance.h"
 #include "Quads/QuadTopology.h"
+#include "Quads/SurfaceWalk.h"
 
 #include <Eigen/Geometry>
 
@@ -30,14 +31,8 @@ public:
   {
   }
 
-  struct Place
-  {
-    Index face = kInvalidIndex; ///< of the whole surface
-    std::array<double, 3> weights{};
-  };
-
-  /// near: a face of the part that is not far.
-  Place in(Index part, Index point, Index near) const
+  /// On the whole surface. near: a face of the part that is not far.
+  SurfacePoint in(Index part, Index point, Index near) const
   {
     const Index f = quads_.sourceFace[point];
     if (faceParts_.has(part, f))
@@ -45,16 +40,17 @@ public:
       return { f, quads_.sourceWeights[point] };
     }
     // On the border of two parts: in one of the faces round the corners, the nearest one.
-    Place best = placeOn(near, quads_.points[point]);
+    SurfacePoint best = placeOn(near, quads_.points[point]);
     double least = distance(best, point);
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
-      visitFan(h,
-        [&](Index g)
+      forEachInFan(mesh_, h,
+        [&](Index k)
         {
+          const Index g = Mesh::face(k);
           if (faceParts_.has(part, g))
           {
-            const Place place = placeOn(g, quads_.points[point]);
+            const SurfacePoint place = placeOn(g, quads_.points[point]);
             const double found = distance(place, point);
             if (found < least || (found == least && place.face < best.face))
             {
@@ -70,18 +66,7 @@ public:
   Index twin(Index h) const { return mesh_.twin[h]; }
 
 private:
-  template <class Visit>
-  void visitFan(Index h, const Visit& visit) const
-  {
-    Index first = h;
-    for (Index g = mesh_.twin[h]; g != kInvalidIndex && Mesh::next(g) != h; g = mesh_.twin[first])
-    {
-      first = Mesh::next(g);
-    }
-    forEachInFan(mesh_, first, [&](Index g) { visit(Mesh::face(g)); });
-  }
-
-  Place placeOn(Index f, const Vector3& p) const
+  SurfacePoint placeOn(Index f, const Vector3& p) const
   {
     const auto [a, b, c] = mesh_.cornersOfFace(f);
     const Vector3 at = nearestOnTriangle(p, a, b, c);
@@ -96,7 +81,7 @@ private:
     return { f, { u, v, std::max(0.0, 1 - u - v) } };
   }
 
-  double distance(const Place& place, Index point) const
+  double distance(const SurfacePoint& place, Index point) const
   {
     Vector3 at = Vector3::Zero();
     for (Index i = 0; i < 3; ++i)
@@ -216,13 +201,12 @@ private:
       to.quads[h / 4][h % 4] = source_.same(wholeCorner[h]);
     }
     const QuadTopology topology = analyzeQuads(to.quads, whole_.points.size());
-    const auto cornerAfter = [](Index h) { return h - h % 4 + (h + 1) % 4; };
     DisjointSets fans(corners, 1);
     for (Index h = 0; h < corners; ++h)
     {
       if (topology.twin[h] != kInvalidIndex)
       {
-        fans.join(h, cornerAfter(topology.twin[h]));
+        fans.join(h, nextInQuad(topology.twin[h]));
       }
     }
     std::vector<std::pair<Index, Index>> points; // of the whole mesh, a corner
@@ -241,8 +225,7 @@ private:
       name[corner] = static_cast<Index>(i);
       wholePoint_.push_back(point);
       to.points.push_back(whole_.points[point]);
-      const PartPlaces::Place place =
-        places_.in(part_, wholeCorner[corner], faceOf(to, corner / 4));
+      const SurfacePoint place = places_.in(part_, wholeCorner[corner], faceOf(to, corner / 4));
       to.sourceFace.push_back(faceParts_.ownFace(part_, place.face));
       to.sourceWeights.push_back(place.weights);
     }

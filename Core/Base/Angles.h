@@ -19,6 +19,9 @@ constexpr double radians(double degrees)
   return degrees * kPi / 180;
 }
 
+/// Direction change above which a curve of features or on the boundary has a corner at a vertex inside it.
+constexpr double kCornerAngle = radians(40);
+
 /// In [0, pi]. Unlike acos, atan2 stays accurate for nearly parallel vectors.
 inline double angleBetween(const Vector3& a, const Vector3& b)
 {

@@ -24,6 +24,17 @@ void sortUnique(List& list)
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+/// The same by keys, of which each keeps the first element.
+template <typename List, typename KeyOf>
+void sortUniqueBy(List& list, const KeyOf& keyOf)
+{
+  std::stable_sort(
+    list.begin(), list.end(), [&](const auto& a, const auto& b) { return keyOf(a) < keyOf(b); });
+  list.erase(std::unique(list.begin(), list.end(),
+               [&](const auto& a, const auto& b) { return keyOf(a) == keyOf(b); }),
+    list.end());
+}
+
 /// Where a value stands among ascending ones that have it.
 template <typename Values>
 Index indexIn(const Values& values, Index value)
@@ -75,6 +86,18 @@ std::vector<typename List::value_type> elementsWhere(const List& list, const Pre
   std::copy_if(list.begin(), list.end(), std::back_inserter(elements), predicate);
   return elements;
 }
+
+/// The value in the middle; some value. Changes their order.
+template <typename Value>
+Value middleOf(std::vector<Value>& values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Names and places that a message tells of, at most, where there may be many.
+constexpr std::size_t kMostTold = 5;
 
 /// "1, 2, 3" of at most so many of the list, with ", ..." where there are more. textOf: of an element.
 template <typename List, typename TextOf>

@@ -21,6 +21,12 @@ constexpr Index kInvalidIndex = std::numeric_limits<Index>::max();
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// What rounding may leave of a length, an area or a weight that is zero, over the largest of its kind, or of the
+/// difference of two that are equal.
+constexpr double kRounding = 1e-9;
+/// The same where coordinates may have been stored in single precision on the way.
+constexpr double kRoundingOfSingle = 1e-6;
+
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 

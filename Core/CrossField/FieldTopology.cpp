@@ -3,8 +3,8 @@
 #include "CrossField/FieldTopology.h"
 
 #include "Base/Angles.h"
-#include "Base/DisjointSets.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <cmath>
@@ -190,14 +190,7 @@ int constrainedEdges(const Mesh& mesh, Index f)
 
 std::vector<Index> regionsOf(const Mesh& mesh)
 {
-  DisjointSets sets(mesh.faceCount(), 1);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (!mesh.isConstrained(h))
-    {
-      sets.join(Mesh::face(h), Mesh::face(mesh.twin[h]));
-    }
-  }
+  DisjointSets sets = joinedFaces(mesh, 1, [&](Index h) { return !mesh.isFeature(h); });
   std::vector<Index> region(mesh.faceCount());
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {

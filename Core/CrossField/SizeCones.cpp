@@ -333,14 +333,12 @@ private:
 /// What an irregular vertex more has to take off the mean square of the error: as much as 20 % too large quads on a
 /// fortieth of the surface.
 constexpr double kWorthOfVertex = 1e-3;
-/// Where sizes are asked for at places: as much as a factor of 1.25, from which on they count as not met, on so many
-/// quads.
+/// Where sizes are asked for at places: as much as a factor of kMetFactor on so many quads.
 constexpr double kQuadsOfVertex = 5;
 
 double worthOfVertex(const SizeConeOptions& options)
 {
-  constexpr double kFactor = 1.25;
-  const double each = std::log(kFactor) * std::log(kFactor);
+  const double each = std::log(kMetFactor) * std::log(kMetFactor);
   return options.sizes == SizeWish::AtPlaces
     ? std::min(kWorthOfVertex, kQuadsOfVertex * each / std::max(options.quads, 1.0))
     : kWorthOfVertex;

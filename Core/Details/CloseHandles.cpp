@@ -19,9 +19,6 @@ namespace quadrille
 namespace
 {
 
-/// A cap with less area than this share of its girth squared has none, up to rounding.
-constexpr double kFlatCap = 1e-9;
-
 /// The half-edges from each vertex of the loop to the next one.
 std::vector<Index> halfEdgesOf(const Mesh& mesh, const LoopSearch::Loop& loop)
 {
@@ -52,7 +49,7 @@ void openFlatCap(Mesh& mesh, Index first, Index count, double girth)
     const double apart = (corner(i) - corner(begin)).norm();
     end = apart > (corner(end) - corner(begin)).norm() ? i : end;
   }
-  if (area > kFlatCap * girth * girth)
+  if (area > kRounding * girth * girth)
   {
     return;
   }

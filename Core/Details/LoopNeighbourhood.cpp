@@ -219,20 +219,8 @@ private:
   /// Faces outside that hang together.
   DisjointSets piecesOfRest() const
   {
-    DisjointSets pieces(mesh_.faceCount(), threads_);
-    parallelForEach(mesh_.faceCount(), kLightChunk, threads_,
-      [&](Index f)
-      {
-        for (Index h = 3 * f; h < 3 * f + 3; ++h)
-        {
-          const Index g = mesh_.twin[h];
-          if (g < h && inside_[f] == 0 && !isInside(g))
-          {
-            pieces.join(f, Mesh::face(g));
-          }
-        }
-      });
-    return pieces;
+    return joinedFaces(
+      mesh_, threads_, [this](Index h) { return !isInside(h) && !isInside(mesh_.twin[h]); });
   }
 
   /// A fan for each loop; from one to the next a face of each, with a hole in its middle that is that of the other.

@@ -3,6 +3,7 @@
 #include "Details/LoopSearch.h"
 
 #include "Base/Progress.h"
+#include "Mesh/BreadthFirst.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
@@ -159,30 +160,17 @@ void LoopSearch::growCotree()
 {
   const Index count = mesh_.faceCount();
   parent_.assign(count, kInvalidIndex);
-  std::vector<std::uint8_t> reached(count, 0);
-  order_.reserve(count);
-  for (Index seed = 0; seed < count; ++seed)
+  const auto enter = [this](Index h)
   {
-    if (reached[seed] != 0)
+    if (inTree_[h] != 0)
     {
-      continue;
+      return false;
     }
-    reached[seed] = 1;
-    for (std::size_t i = (order_.push_back(seed), order_.size() - 1); i < order_.size(); ++i)
-    {
-      pollNowAndThen(i);
-      for (Index h = 3 * order_[i]; h < 3 * order_[i] + 3; ++h)
-      {
-        const Index g = mesh_.twin[h];
-        if (inTree_[h] == 0 && reached[Mesh::face(g)] == 0)
-        {
-          reached[Mesh::face(g)] = 1;
-          parent_[Mesh::face(g)] = g;
-          order_.push_back(Mesh::face(g));
-        }
-      }
-    }
-  }
+    parent_[Mesh::face(mesh_.twin[h])] = mesh_.twin[h];
+    return true;
+  };
+  order_ = visitFaces(
+    mesh_.twin, [](Index) {}, enter);
   // Ranks in which each subtree is an interval: from the sizes of the subtrees.
   std::vector<Index> size(count, 1);
   for (std::size_t i = count; i-- > 0;)

@@ -12,8 +12,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kBeyondRounding = 1 + 1e-9;
-
 std::vector<Index> allOf(const std::vector<std::vector<Index>>& places)
 {
   std::vector<Index> vertices;
@@ -27,7 +25,7 @@ std::vector<Index> allOf(const std::vector<std::vector<Index>>& places)
 std::optional<LoopNeighbourhood> partNear(
   const Mesh& mesh, const std::vector<std::vector<Index>>& places, double bound, int threads)
 {
-  return loopNeighbourhood(mesh, allOf(places), kBeyondRounding * bound / 2, threads);
+  return loopNeighbourhood(mesh, allOf(places), (1 + kRounding) * bound / 2, threads);
 }
 
 /// The shortest loop below the bound that meets a vertex of the place. part: what is searched; null: all.

@@ -324,14 +324,7 @@ private:
     }
     if (!tree_)
     {
-      TriangleList list;
-      list.points = surface_.position;
-      for (Index f = 0; f < surface_.faceCount(); ++f)
-      {
-        list.corners.push_back(
-          { surface_.origin[3 * f], surface_.origin[3 * f + 1], surface_.origin[3 * f + 2] });
-      }
-      tree_ = std::make_unique<NearestTriangle>(std::move(list));
+      tree_ = std::make_unique<NearestTriangle>(trianglesOf(surface_));
     }
     countTry(Try::CentreOtherwise, lost.size());
     parallelForEach(lost.size(), kHeavyChunk, options_.threads,

@@ -15,7 +15,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kNoWeight = 1e-9;
 constexpr double kLongestSection = 3; ///< over the distance of its ends
 
 /// Corners of the point's face that have a weight, as half-edges that leave them.
@@ -24,7 +23,7 @@ std::vector<Index> weightedCorners(const SurfacePoint& point)
   std::vector<Index> corners;
   for (Index i = 0; i < 3; ++i)
   {
-    if (point.weights[i] > kNoWeight)
+    if (point.weights[i] > kRounding)
     {
       corners.push_back(3 * point.face + i);
     }
@@ -482,7 +481,6 @@ SurfacePoint approach(const Mesh& mesh, SurfacePoint from, const Vector3& target
 {
   constexpr int kMostSectionSteps = 40;
   constexpr int kFaces = 10000;
-  constexpr double kNearer = 1 - 1e-9;
   double distance = (target - positionOf(mesh, from)).norm();
   double part = 1;
   for (int i = 0; i < kMostSectionSteps && distance > 0; ++i)
@@ -490,7 +488,7 @@ SurfacePoint approach(const Mesh& mesh, SurfacePoint from, const Vector3& target
     const Vector3 wanted = part * (target - positionOf(mesh, from));
     const std::optional<SurfacePoint> place = walkSurface(mesh, from, wanted, kFaces);
     const double there = place ? (target - positionOf(mesh, *place)).norm() : distance;
-    if (there < kNearer * distance)
+    if (there < (1 - kRounding) * distance)
     {
       from = *place;
       distance = there;

@@ -6,6 +6,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/Distance.h"
+#include "Quads/QuadShape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,12 +31,9 @@ constexpr std::size_t kLeastGuidePlaces = 100;
 /// Places on each edge of a curve that is as long as an edge of the quads.
 constexpr double kPlacesAnEdge = 8;
 
-/// Of its diagonals, twice as long as its area is large.
 Vector3 areaNormalOf(const QuadMesh& mesh, Index quad)
 {
-  const std::array<Index, 4>& corners = mesh.quads[quad];
-  return (mesh.points[corners[2]] - mesh.points[corners[0]])
-    .cross(mesh.points[corners[3]] - mesh.points[corners[1]]);
+  return diagonalNormal(cornersOf(mesh.points, mesh.quads[quad]));
 }
 
 /// That of a square of the same area.

@@ -21,12 +21,11 @@ namespace quadrille
 
 /// Guides and strokes: degrees on average.
 constexpr double kMetAngle = 5;
-/// Places (valences, moves) and feature lines: edge lengths of the quads there, at most.
+/// Places (valences, moves) and feature lines: edge lengths of the quads there, at most. So near to a place is the
+/// vertex that was asked for there.
 constexpr double kMetDistance = 0.3;
 /// Guides: a share of irregular vertices in the guided region above this is worth a word.
 constexpr double kNotableShare = 0.1;
-/// Sizes: the factor of the median; of the array of sizes, on average.
-constexpr double kMetFactor = 1.25;
 /// Edge lengths of the quads beyond which a drawn point lies off the surface, which is told.
 constexpr double kFarOffSurface = 0.5;
 

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/ConstraintWords.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Evaluation/ConstraintMeasures.h"
+#include "Quads/QuadShape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -155,10 +157,7 @@ ConstraintWord Judge::sizes(const std::vector<double>& sizes) const
     {
       asked += 0.25 * sizes[p];
     }
-    const double area = 0.5 *
-      (mesh_.points[quad[2]] - mesh_.points[quad[0]])
-        .cross(mesh_.points[quad[3]] - mesh_.points[quad[1]])
-        .norm();
+    const double area = 0.5 * diagonalNormal(cornersOf(mesh_.points, quad)).norm();
     if (area > 0 && asked > 0)
     {
       ratios.push_back({ std::log(std::sqrt(area) / asked), area });
@@ -171,12 +170,11 @@ ConstraintWord Judge::sizes(const std::vector<double>& sizes) const
     word.reason = "the quads have no area";
     return word;
   }
-  const auto middle = logarithms.begin() + static_cast<std::ptrdiff_t>(logarithms.size() / 2);
-  std::nth_element(logarithms.begin(), middle, logarithms.end());
+  const double middle = middleOf(logarithms);
   double worst = -1;
   for (std::size_t i = 0; i < ratios.size(); ++i)
   {
-    ratios[i].value = std::abs(ratios[i].value - *middle);
+    ratios[i].value = std::abs(ratios[i].value - middle);
     if (ratios[i].value > worst)
     {
       worst = ratios[i].value;

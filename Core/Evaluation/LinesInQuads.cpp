@@ -15,8 +15,6 @@ namespace quadrille
 namespace
 {
 
-/// Edge lengths within which the ends of a connection are looked for: so far a line may end from what it joins.
-constexpr double kReachOfEnds = 3;
 /// A closed chain that is so many times as long as its line goes round more than once.
 constexpr double kOnceRound = 1.9;
 /// Places an edge length at which lines are compared.

@@ -17,6 +17,8 @@ namespace quadrille
 /// Mean edge lengths by which chain and line may differ, and edge lengths of the quads there by which a connection may
 /// end beside the end of its line.
 constexpr double kMetLine = 0.5;
+/// Edge lengths within which the ends of a connection are looked for: so far a line may end from what it joins.
+constexpr double kReachOfEnds = 3;
 /// Mean edge lengths within which a chain is told of.
 constexpr double kNearLine = 6;
 

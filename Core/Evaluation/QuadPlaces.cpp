@@ -3,6 +3,7 @@
 #include "Evaluation/QuadPlaces.h"
 
 #include "Base/Lists.h"
+#include "Quads/QuadProjection.h"
 
 #include <algorithm>
 
@@ -11,18 +12,6 @@ namespace quadrille
 
 namespace
 {
-
-TriangleList halvesOf(const QuadMesh& mesh)
-{
-  TriangleList list;
-  list.points = mesh.points;
-  for (const std::array<Index, 4>& quad : mesh.quads)
-  {
-    list.corners.push_back({ quad[0], quad[1], quad[2] });
-    list.corners.push_back({ quad[0], quad[2], quad[3] });
-  }
-  return list;
-}
 
 TriangleList edgesOf(const QuadMesh& mesh)
 {
@@ -89,7 +78,7 @@ std::optional<Index> ReachedValences::nearestOf(int valence, const Vector3& p) c
 
 //------------------------------------------------------------------------------
 NearestQuads::NearestQuads(const QuadMesh& mesh)
-  : mesh_(mesh), halves_(halvesOf(mesh)), edgeLengthRound_(mesh.points.size(), 0)
+  : mesh_(mesh), halves_(halvesOf(mesh.points, mesh.quads)), edgeLengthRound_(mesh.points.size(), 0)
 {
   std::vector<int> quadsRound(mesh.points.size(), 0);
   for (const std::array<Index, 4>& quad : mesh.quads)

@@ -54,7 +54,6 @@ void requireElement(const ElementMesh& mesh, std::size_t e)
 
 void requireProperties(const ElementMesh& mesh, std::size_t e)
 {
-  constexpr double kUnitTolerance = 1e-6; // an array of floats is a unit vector to 1e-7
   if (!mesh.thickness.empty())
   {
     refuseIf(!(mesh.thickness[e] > 0 && std::isfinite(mesh.thickness[e])), "element ", e,
@@ -63,7 +62,7 @@ void requireProperties(const ElementMesh& mesh, std::size_t e)
   if (!mesh.axis.empty())
   {
     const double length = mesh.axis[e].norm();
-    refuseIf(!(length == 0 || std::abs(length - 1) < kUnitTolerance), "the axis of element ", e,
+    refuseIf(!(length == 0 || std::abs(length - 1) < kRoundingOfSingle), "the axis of element ", e,
       " has the length ", length, "; give a unit vector, or zero where it has none");
   }
 }

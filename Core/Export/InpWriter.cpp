@@ -21,6 +21,7 @@ namespace
 
 /// More different thicknesses than this are given by nodes.
 constexpr std::size_t kMostThicknesses = 64;
+/// Characters of a real number, in both programs.
 constexpr std::size_t kInpReal = 20;
 
 std::string inpReal(double number)
@@ -246,8 +247,6 @@ std::vector<std::string> writeInpSections(
   return notices;
 }
 
-constexpr std::size_t kMostCharacters = 20; // of a real number, in both programs
-
 std::string upperCased(std::string text)
 {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -280,13 +279,12 @@ bool isPlaneType(const std::string& type)
 
 void requireInPlane(const ElementMesh& mesh, const std::string& type)
 {
-  constexpr double kPlaceTolerance = 1e-9;
   Eigen::AlignedBox3d box;
   for (const Vector3& p : mesh.nodes)
   {
     box.extend(p);
   }
-  const double tolerance = box.isEmpty() ? 0 : kPlaceTolerance * box.diagonal().norm();
+  const double tolerance = box.isEmpty() ? 0 : kRounding * box.diagonal().norm();
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
   {
     refuseIf(std::abs(mesh.nodes[i][2]) > tolerance, "elements of type ", type,
@@ -313,7 +311,7 @@ void writeInpNodes(const ElementMesh& mesh, bool isPlane, OutputFile& file)
     {
       // CalculiX takes nothing but zero for plane elements.
       const double value = isPlane && k == 2 ? 0. : mesh.nodes[i][k];
-      file << ", " << realText(value, kMostCharacters);
+      file << ", " << inpReal(value);
     }
     file << '\n';
   }

@@ -116,9 +116,6 @@ Index ElementEdges::otherSide(Index h, Index node) const
   return h - side + (start(h) == node ? (side + 3) % 4 : (side + 1) % 4);
 }
 
-/// Bends above this may be corners, as on feature curves of the input (Hierarchy/FeatureCurves.h).
-constexpr double kCornerOfSet = radians(40);
-
 std::string defaultPatchName(std::int64_t number)
 {
   // Without the sign of the text, as -number does not exist for the lowest one.
@@ -262,7 +259,7 @@ private:
       const bool isEnd = at.count != 2 ||
         edges_.isBoundary(at.first) != edges_.isBoundary(at.second) ||
         nameOf(at.first) != nameOf(at.second);
-      if (isEnd || (bend(node, at) > kCornerOfSet && !goesStraightOn(node, at)))
+      if (isEnd || (bend(node, at) > kCornerAngle && !goesStraightOn(node, at)))
       {
         names[node];
       }

@@ -128,7 +128,6 @@ std::vector<std::string> SetNames::unique(const std::vector<std::string>& names,
 
 std::vector<std::string> SetNames::notices() const
 {
-  constexpr std::size_t kShown = 5;
   if (changed_.empty())
   {
     return {};
@@ -138,7 +137,7 @@ std::vector<std::string> SetNames::notices() const
     " another in this format, as it cannot have the character, the length, or the same name "
     "twice: ";
   return { text +
-    joined(changed_, kShown,
+    joined(changed_, kMostTold,
       [](const auto& change) { return "'" + change.first + "' is " + change.second; }) };
 }
 

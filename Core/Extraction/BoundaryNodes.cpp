@@ -82,10 +82,7 @@ std::optional<Index> Boundary::nodeOnLine(Index h, FixedVec2 target, int directi
 Index Boundary::before(Index h) const
 {
   Index last = h;
-  for (Index g = h; g != kInvalidIndex; g = map_.mesh.rotateCounterclockwise(g))
-  {
-    last = g;
-  }
+  forEachFrom(map_.mesh, h, [&](Index g) { last = g; });
   return Mesh::previous(last);
 }
 
@@ -97,10 +94,7 @@ void Boundary::addOrigin(Index h)
     return;
   }
   bool met = map_.isOnIsoline(before(h));
-  for (Index g = h; g != kInvalidIndex; g = map_.mesh.rotateCounterclockwise(g))
-  {
-    met = met || lastIsoline(map_, g).has_value();
-  }
+  forEachFrom(map_.mesh, h, [&](Index g) { met = met || lastIsoline(map_, g).has_value(); });
   if (!met)
   {
     return;

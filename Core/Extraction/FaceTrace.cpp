@@ -273,10 +273,7 @@ void FaceTrace::noteVertex(const Side& side, Index corner)
 bool FaceTrace::isStraight(Index out) const
 {
   int axes = 0;
-  for (Index g = out; g != kInvalidIndex; g = map_.mesh.rotateCounterclockwise(g))
-  {
-    axes += axesInCorner(map_, g);
-  }
+  forEachFrom(map_.mesh, out, [&](Index g) { axes += axesInCorner(map_, g); });
   return axes == 2 && map_.isOnIsoline(out) && map_.isOnIsoline(boundary_.before(out));
 }
 

@@ -19,20 +19,19 @@ bool goesStraightOn(const ExactMap& map, Index start)
 {
   int total = 0;
   int toSecond = 0;
-  Index h = start;
-  do
-  {
-    if (h != start && map.mesh.isFeature(h))
+  forEachFrom(map.mesh, start,
+    [&](Index h)
     {
-      toSecond = total;
-    }
-    const FixedVec2 left = map.at(Mesh::previous(h)) - map.at(h);
-    for (int axis = firstAxis(map.edge(h)); orientation(axisVector(axis), left) > 0; ++axis)
-    {
-      ++total;
-    }
-    h = map.mesh.rotateCounterclockwise(h);
-  } while (h != start && h != kInvalidIndex);
+      if (h != start && map.mesh.isFeature(h))
+      {
+        toSecond = total;
+      }
+      const FixedVec2 left = map.at(Mesh::previous(h)) - map.at(h);
+      for (int axis = firstAxis(map.edge(h)); orientation(axisVector(axis), left) > 0; ++axis)
+      {
+        ++total;
+      }
+    });
   return total == 2 * toSecond;
 }
 
@@ -41,21 +40,20 @@ bool endsAt(const ExactMap& map, Index h)
 {
   int features = 0;
   Index onFeature = kInvalidIndex;
-  Index g = h;
-  do
-  {
-    if (map.mesh.isFeature(g) && !map.mesh.isBoundary(g))
+  const bool isInside = forEachFrom(map.mesh, h,
+    [&](Index g)
     {
-      ++features;
-      onFeature = g;
-    }
-    g = map.mesh.rotateCounterclockwise(g);
-  } while (g != h && g != kInvalidIndex);
+      if (map.mesh.isFeature(g) && !map.mesh.isBoundary(g))
+      {
+        ++features;
+        onFeature = g;
+      }
+    });
   if (features == 0)
   {
     return false;
   }
-  return g == kInvalidIndex || features != 2 || !goesStraightOn(map, onFeature);
+  return !isInside || features != 2 || !goesStraightOn(map, onFeature);
 }
 
 } // namespace

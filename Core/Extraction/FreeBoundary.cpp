@@ -203,29 +203,15 @@ Index copyPoint(Index p, QuadMesh& mesh)
 /// Takes points away that no quad has.
 void compact(QuadMesh& mesh)
 {
-  std::vector<Index> id(mesh.points.size(), kInvalidIndex);
+  std::vector<std::uint8_t> isUsed(mesh.points.size(), 0);
   for (const std::array<Index, 4>& quad : mesh.quads)
   {
     for (const Index p : quad)
     {
-      id[p] = 0;
+      isUsed[p] = 1;
     }
   }
-  Index used = 0;
-  for (Index p = 0; p < id.size(); ++p)
-  {
-    if (id[p] != kInvalidIndex)
-    {
-      id[p] = used;
-      mesh.points[used] = mesh.points[p];
-      mesh.sourceFace[used] = mesh.sourceFace[p];
-      mesh.sourceWeights[used] = mesh.sourceWeights[p];
-      ++used;
-    }
-  }
-  mesh.points.resize(used);
-  mesh.sourceFace.resize(used);
-  mesh.sourceWeights.resize(used);
+  const std::vector<Index> id = keepPoints(mesh, isUsed);
   for (std::array<Index, 4>& quad : mesh.quads)
   {
     for (Index& p : quad)
@@ -305,13 +291,9 @@ void dropHalfLines(
     const Index b = pointOf[line.b];
     whole.emplace(std::min(a, b), std::max(a, b));
   }
-  mesh.lines.erase(std::remove_if(mesh.lines.begin(), mesh.lines.end(),
-                     [&](const QuadLine& line)
-                     {
-                       return isFeature(line) &&
-                         whole.count({ std::min(line.a, line.b), std::max(line.a, line.b) }) == 0;
-                     }),
-    mesh.lines.end());
+  eraseIf(mesh.lines,
+    [&](const QuadLine& line)
+    { return isFeature(line) && whole.count(std::minmax(line.a, line.b)) == 0; });
 }
 
 } // namespace

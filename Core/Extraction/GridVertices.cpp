@@ -309,13 +309,12 @@ void GridVertices::numberPorts(Part& part, Index q) const
     return;
   }
   const std::size_t first = part.largeFans.size();
-  Index h = vertex.site;
-  do
-  {
-    part.largeFans.push_back({ h, q, part.ports - vertex.firstPort });
-    part.ports += static_cast<Index>(cornerSector(h).count);
-    h = map_.mesh.rotateCounterclockwise(h);
-  } while (h != vertex.site && h != kInvalidIndex);
+  forEachFrom(map_.mesh, vertex.site,
+    [&](Index h)
+    {
+      part.largeFans.push_back({ h, q, part.ports - vertex.firstPort });
+      part.ports += static_cast<Index>(cornerSector(h).count);
+    });
   if (part.largeFans.size() - first <= kLargeFan)
   {
     part.largeFans.resize(first);

@@ -195,16 +195,15 @@ private:
   template <typename Visitor>
   void visitFan(const GridVertex& vertex, const Visitor& visit) const
   {
-    Index h = vertex.site;
-    do
-    {
-      const Sector sector = cornerSector(h);
-      if (sector.count > 0)
+    forEachFrom(map_.mesh, vertex.site,
+      [&](Index h)
       {
-        visit(sector);
-      }
-      h = map_.mesh.rotateCounterclockwise(h);
-    } while (h != vertex.site && h != kInvalidIndex);
+        const Sector sector = cornerSector(h);
+        if (sector.count > 0)
+        {
+          visit(sector);
+        }
+      });
   }
 
   ExactMap map_;

@@ -8,8 +8,10 @@
 #include "Extraction/FaceTrace.h"
 #include "Extraction/PolygonSimplifier.h"
 #include "Quads/QuadTopology.h"
+#include "Quads/SurfaceWalk.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -17,9 +19,6 @@ namespace quadrille
 {
 namespace
 {
-
-/// Cosine of the angle by which a boundary bends at a corner that polygons keep.
-constexpr double kCornerCosine = 0.8660254037844387; // 30 degrees
 
 class PolygonMaker
 {
@@ -245,7 +244,7 @@ private:
     }
     const Vector3 in = map_.mesh.edgeVector(boundary_.before(stop.id));
     const Vector3 out = map_.mesh.edgeVector(stop.id);
-    return in.dot(out) < kCornerCosine * in.norm() * out.norm();
+    return in.dot(out) < std::cos(kCurveCorner) * in.norm() * out.norm();
   }
 
   std::vector<std::uint8_t> wantedOf(const std::vector<Stop>& stops) const
@@ -388,12 +387,8 @@ private:
   /// Both sides of a feature, and the quads beside a polygon, may have told the same line.
   void sortLines()
   {
-    const auto key = [](const QuadLine& l) { return std::make_tuple(l.a, l.b, l.boundary); };
-    std::stable_sort(mesh_.lines.begin(), mesh_.lines.end(),
-      [&](const QuadLine& l, const QuadLine& m) { return key(l) < key(m); });
-    mesh_.lines.erase(std::unique(mesh_.lines.begin(), mesh_.lines.end(),
-                        [&](const QuadLine& l, const QuadLine& m) { return key(l) == key(m); }),
-      mesh_.lines.end());
+    sortUniqueBy(
+      mesh_.lines, [](const QuadLine& l) { return std::make_tuple(l.a, l.b, l.boundary); });
   }
 
   /// A vertex on the side of a cell divides the line that ran along it.

@@ -7,6 +7,7 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Features/EdgeCurves.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <numeric>
 #include <unordered_set>
+#include <utility>
 
 namespace quadrille
 {
@@ -33,13 +35,6 @@ double meanOf(const std::vector<double>& values)
 {
   return std::accumulate(values.begin(), values.end(), 0.0) /
     std::max<double>(1, static_cast<double>(values.size()));
-}
-
-double middleValue(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The edges that a map follows and how they go on at vertices.
@@ -139,32 +134,14 @@ private:
 
   CreaseCurve trace(Index seed, std::vector<std::uint8_t>& done) const
   {
+    CurveOfEdges edges = curveThrough(
+      mesh_, seed, [this](Index h, Index v) { return onwards(h, v); }, done);
     CreaseCurve curve;
-    done[seed] = 1;
-    bool closed = false;
-    std::array<std::vector<Index>, 2> ways;
-    for (int side = 0; side < 2 && !closed; ++side)
+    for (const Index v : edges.ends)
     {
-      Index h = seed;
-      Index v = side == 0 ? mesh_.origin[seed] : mesh_.target(seed);
-      while (true)
-      {
-        const Index next = onwards(h, v);
-        closed = next == seed;
-        if (next == kInvalidIndex || done[next] != 0)
-        {
-          break;
-        }
-        done[next] = 1;
-        ways[static_cast<std::size_t>(side)].push_back(next);
-        h = next;
-        v = mesh_.otherEnd(h, v);
-      }
       curve.freeEnds += at_.size(v) == 1 ? 1 : 0;
     }
-    curve.halfEdges.assign(ways[0].rbegin(), ways[0].rend());
-    curve.halfEdges.push_back(seed);
-    curve.halfEdges.insert(curve.halfEdges.end(), ways[1].begin(), ways[1].end());
+    curve.halfEdges = std::move(edges.edges);
     for (const Index h : curve.halfEdges)
     {
       curve.length += sizedLength(mesh_, h) / edgeLength_;
@@ -262,7 +239,7 @@ void measureCurve(const Mesh& mesh, double edgeLength, CreaseCurve& curve)
   }
   curve.angle = meanOf(angles);
   curve.wideAngle = meanOf(wide);
-  curve.roughness = middleValue(rough);
+  curve.roughness = middleOf(rough);
 }
 
 } // namespace

@@ -434,10 +434,9 @@ FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double smallest, int th
   }
   FeatureFilterReport report;
   std::vector<Index> edges = constrainedEdges(mesh, threads);
-  const auto isFree = [&](Index h) { return !mesh.isConstrained(h); };
   while (removeOnce(mesh, smallest, edges, report))
   {
-    edges.erase(std::remove_if(edges.begin(), edges.end(), isFree), edges.end());
+    eraseIf(edges, [&](Index h) { return !mesh.isConstrained(h); });
   }
   report.keptEdges = static_cast<std::size_t>(
     std::count_if(edges.begin(), edges.end(), [&](Index h) { return mesh.isFeature(h); }));

@@ -5,6 +5,7 @@
 #include "Filling/FaceCurves.h"
 #include "Filling/FaceGround.h"
 #include "Mesh/Sizing.h"
+#include "Quads/QuadShape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,6 @@ namespace quadrille
 namespace
 {
 
-/// A face with four edges round it is one quad: a worse shape than this counts as none (see quadShape).
-constexpr double kSoundFace = 0.1;
 /// What each curve on the way between two odd faces costs beside what an edge more or less does to its edges.
 constexpr double kCostOfStep = 0.05;
 
@@ -306,7 +305,7 @@ std::vector<Index> FaceCurves::flatFaces(const std::vector<Index>& singleQuads) 
   {
     const std::vector<Vector3> corners = cornersRound(f);
     if (corners.size() == 4 &&
-      quadShape({ corners[0], corners[1], corners[2], corners[3] }, normals[f]) < kSoundFace)
+      quadShape({ corners[0], corners[1], corners[2], corners[3] }, normals[f]) < kLeastShape)
     {
       flat.push_back(f);
     }

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace quadrille
 {
@@ -39,42 +38,6 @@ std::vector<Vector3> vertexNormals(const Mesh& mesh)
 }
 
 } // namespace
-
-TrianglesOfMesh partOf(const Mesh& whole, const std::vector<Index>& triangles)
-{
-  TrianglesOfMesh part;
-  Mesh& mesh = part.mesh;
-  std::map<Index, Index> newVertex, newFace;
-  for (const Index f : triangles)
-  {
-    newFace.emplace(f, static_cast<Index>(newFace.size()));
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
-    {
-      const Index v = whole.origin[h];
-      if (newVertex.emplace(v, static_cast<Index>(part.vertices.size())).second)
-      {
-        part.vertices.push_back(v);
-        mesh.position.push_back(Vector3(whole.position[v]));
-        if (!whole.sizing.empty())
-        {
-          mesh.sizing.push_back(float{ whole.sizing[v] });
-        }
-      }
-      mesh.origin.push_back(Index{ newVertex[v] });
-      mesh.flags.push_back(0);
-    }
-  }
-  for (const Index f : triangles)
-  {
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
-    {
-      const Index twin = whole.twin[h];
-      const auto beyond = twin == kInvalidIndex ? newFace.end() : newFace.find(Mesh::face(twin));
-      mesh.twin.push_back(beyond == newFace.end() ? kInvalidIndex : 3 * beyond->second + twin % 3);
-    }
-  }
-  return part;
-}
 
 FaceGround::FaceGround(const Mesh& face, const std::vector<std::uint8_t>& isPin, double edgeLength)
   : face_(face), edgeLength_(edgeLength), nearest_(trianglesOf(face)),
@@ -187,7 +150,7 @@ void FaceGround::measureSizes()
     const Vector3& p = face_.position[v];
     double size = sizeAt(face_, v);
     // Of farther ones none makes it smaller.
-    const double reach = (1 + 1e-9) * (size - finest) / kGrowthFromPins * edgeLength_;
+    const double reach = (1 + kRounding) * (size - finest) / kGrowthFromPins * edgeLength_;
     auto pin = std::lower_bound(pins.begin(), pins.end(), p.x() - reach,
       [](const FinePin& a, double x) { return a.place.x() < x; });
     for (; pin != pins.end() && pin->place.x() <= p.x() + reach; ++pin)

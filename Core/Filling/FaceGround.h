@@ -17,14 +17,6 @@ namespace quadrille
 /// Moves of points shorter than this share of the edges wanted there are not worth a search for the place below.
 constexpr double kLeastMove = 0.02;
 
-/// Triangles of a mesh as one of their own; joined as they are there, sizes as there, no flags.
-struct TrianglesOfMesh
-{
-  Mesh mesh;
-  std::vector<Index> vertices; ///< which of the whole mesh's these are
-};
-TrianglesOfMesh partOf(const Mesh& whole, const std::vector<Index>& triangles);
-
 class FaceGround
 {
 public:

@@ -10,6 +10,7 @@
 #include "Mesh/Sizing.h"
 #include "Mesh/Surface.h"
 #include "Mesh/SurfaceEdit.h"
+#include "Mesh/SurfaceParts.h"
 #include "Mesh/Topology.h"
 #include "Quads/QuadShape.h"
 

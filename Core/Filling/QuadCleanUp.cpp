@@ -4,6 +4,7 @@
 
 #include "Filling/QuadChanges.h"
 #include "Filling/QuadRelaxation.h"
+#include "Quads/QuadShape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +20,6 @@ namespace
 constexpr int kCleanUpPasses = 20;
 /// Sweeps of smoothing after each pass, and at the end.
 constexpr int kSweeps = 2, kLastSweeps = 10;
-/// A change of the connectivity may make quads worse than they are down to this shape (see quadShape) only: smoothing
-/// raises it again.
-constexpr double kSoundChange = 0.1;
 
 using Quad = QuadChanges::Quad;
 
@@ -56,8 +54,9 @@ bool changeQuads(FaceQuads& mesh)
       std::vector<Quad> gone;
       std::transform(change.old.begin(), change.old.end(), std::back_inserter(gone),
         [&](Index q) { return mesh.quads[q]; });
+      // Smoothing makes those that are not bad better again.
       return gain > 1e-6 &&
-        worstShape(mesh, change.made) >= std::min(kSoundChange, worstShape(mesh, gone));
+        worstShape(mesh, change.made) >= std::min(kLeastShape, worstShape(mesh, gone));
     });
   bool any = false;
   for (Index v = mesh.pinCount; v < changes.pointCount(); ++v)

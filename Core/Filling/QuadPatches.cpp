@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filling/QuadPatches.h"
 
+#include "Mesh/SurfaceParts.h"
 #include "Quads/QuadShape.h"
 
 #include <Eigen/Geometry>

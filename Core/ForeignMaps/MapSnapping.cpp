@@ -359,16 +359,15 @@ private:
   {
     corners.clear(); // counterclockwise from start
     Transition whole;
-    Index h = start;
-    do
-    {
-      corners.push_back({ h, whole });
-      whole = transitionAt(Mesh::previous(h)).after(whole);
-      h = mesh_.rotateCounterclockwise(h);
-    } while (h != start && h != kInvalidIndex);
+    const bool isInside = forEachFrom(mesh_, start,
+      [&](Index h)
+      {
+        corners.push_back({ h, whole });
+        whole = transitionAt(Mesh::previous(h)).after(whole);
+      });
 
     const FixedVec2 p = toFixed(snapConstrained(corners));
-    const FixedVec2 chosen = h == start ? closeFan(whole, p, start, part) : p;
+    const FixedVec2 chosen = isInside ? closeFan(whole, p, start, part) : p;
     for (const Corner& corner : corners)
     {
       result_.uv[corner.h] = corner.fromStart.apply(chosen);

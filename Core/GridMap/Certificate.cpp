@@ -135,17 +135,10 @@ void checkFaces(const Mesh& mesh, const std::vector<FixedVec2>& uv,
   }
 }
 
-/// Seams and features are exact quarter turns, so what the corners of a vertex enter adds up to the
-/// quarter turns of the map round it, whatever charts they lie in.
 void checkTurns(const Mesh& mesh, const std::vector<std::int8_t>& entered,
   const std::vector<int>& expectedTurns, Certificate& result)
 {
-  std::vector<int> turns(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    turns[mesh.origin[h]] += entered[h];
-  }
+  const std::vector<int> turns = sumTurns(mesh, [&](Index h) { return entered[h]; });
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     pollNowAndThen(v);

@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
+#include "Mesh/BreadthFirst.h"
 #include "Mesh/Topology.h"
 
 #include <string>
@@ -96,40 +97,20 @@ private:
     graph_.comb.assign(mesh_.faceCount(), 0);
     graph_.component.assign(mesh_.faceCount(), kInvalidIndex);
     std::vector<bool> crossed(mesh_.origin.size(), false);
-    std::vector<Index> queue;
-    for (Index seed = 0; seed < mesh_.faceCount(); ++seed)
+    const auto begin = [&](Index seed) { graph_.component[seed] = graph_.components++; };
+    const auto enter = [&](Index h)
     {
-      if (graph_.component[seed] != kInvalidIndex)
-      {
-        continue;
-      }
-      graph_.component[seed] = graph_.components++;
-      queue.assign(1, seed);
-      for (std::size_t i = 0; i < queue.size(); ++i)
-      {
-        enterNeighbours(queue[i], crossed, queue);
-      }
-    }
-    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
-    {
-      cut_[h] = !mesh_.isBoundary(h) && !crossed[h];
-    }
-  }
-
-  void enterNeighbours(Index f, std::vector<bool>& crossed, std::vector<Index>& queue)
-  {
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
-    {
-      const Index g = mesh_.twin[h];
-      if (g == kInvalidIndex || graph_.component[Mesh::face(g)] != kInvalidIndex)
-      {
-        continue;
-      }
+      const Index g = mesh_.twin[h], f = Mesh::face(h);
       graph_.component[Mesh::face(g)] = graph_.component[f];
       graph_.comb[Mesh::face(g)] =
         static_cast<std::uint8_t>((graph_.comb[f] - field_.matching[h]) & 3);
       crossed[h] = crossed[g] = true;
-      queue.push_back(Mesh::face(g));
+      return true;
+    };
+    visitFaces(mesh_.twin, begin, enter);
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      cut_[h] = !mesh_.isBoundary(h) && !crossed[h];
     }
   }
 

@@ -3,6 +3,7 @@
 #include "GridMap/FieldUntangling.h"
 
 #include "Base/TryCount.h"
+#include "Mesh/BreadthFirst.h"
 #include "Numerics/LocalProblem.h"
 
 #include <algorithm>
@@ -29,28 +30,6 @@ constexpr double kStiffening = 10;
 constexpr int kIdleRounds = 2;
 /// A valid map has converged where a step lessens its energy by a smaller share.
 constexpr double kLeastGain = 0.01;
-
-/// #V: by how many triangles a vertex is away from these, up to `most`; more than that for all others.
-std::vector<int> ringsFrom(const Mesh& mesh, const std::vector<Index>& vertices, int most)
-{
-  std::vector<int> ring(mesh.vertexCount(), most + 1);
-  for (const Index v : vertices)
-  {
-    ring[v] = 0;
-  }
-  for (int r = 0; r < most; ++r)
-  {
-    for (Index f = 0; f < mesh.faceCount(); ++f)
-    {
-      const Index* v = &mesh.origin[3 * f];
-      for (int i = 0; i < 3 && std::min({ ring[v[0]], ring[v[1]], ring[v[2]] }) == r; ++i)
-      {
-        ring[v[i]] = std::min(ring[v[i]], r + 1);
-      }
-    }
-  }
-  return ring;
-}
 
 } // namespace
 

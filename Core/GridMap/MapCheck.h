@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Base/FixedPoint.h"
+#include "Base/Progress.h"
 #include "CrossField/CrossField.h"
 #include "Mesh/Mesh.h"
 
@@ -51,6 +52,20 @@ inline std::array<std::int8_t, 3> quadrantsEnteredByAll(const FixedVec2* p, int 
       static_cast<std::int8_t>(quadrantsEntered(p, i, orientationSign));
   }
   return entered;
+}
+
+/// Quarter turns of a map round each vertex (#V), as seams and features are exact quarter turns: the sums of what its
+/// corners enter, which entered(h) says.
+template <typename Entered>
+std::vector<int> sumTurns(const Mesh& mesh, const Entered& entered)
+{
+  std::vector<int> turns(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    turns[mesh.origin[h]] += entered(h);
+  }
+  return turns;
 }
 
 /// What keeps a map from following a field without inverted triangles.

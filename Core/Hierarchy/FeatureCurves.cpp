@@ -16,22 +16,6 @@ namespace quadrille
 namespace
 {
 
-/// The neighbours of the vertices along constrained edges.
-Grouped<> constrainedNeighbours(const Mesh& mesh)
-{
-  const std::vector<Index> edges = constrainedEdges(mesh);
-  return { mesh.vertexCount(),
-    [&](const auto& visit)
-    {
-      for (std::size_t i = 0; i < edges.size(); ++i)
-      {
-        pollNowAndThen(i);
-        visit(mesh.origin[edges[i]], mesh.target(edges[i]));
-        visit(mesh.target(edges[i]), mesh.origin[edges[i]]);
-      }
-    } };
-}
-
 /// A maximal chain of constrained edges through vertices of degree 2.
 struct Chain
 {
@@ -39,19 +23,19 @@ struct Chain
   bool closed = false;
 };
 
-Chain followChain(const Grouped<>& graph, Index start, Index second, std::vector<char>& seen)
+/// graph: the constrained edges at each vertex.
+Chain followChain(
+  const Mesh& mesh, const Grouped<>& graph, Index start, Index edge, std::vector<char>& seen)
 {
   Chain chain;
   chain.vertices = { start };
-  Index previous = start;
-  Index v = second;
+  Index v = mesh.otherEnd(edge, start);
   while (v != start && graph.size(v) == 2)
   {
     seen[v] = 1;
     chain.vertices.push_back(v);
-    const Index next = graph.otherThan(v, previous);
-    previous = v;
-    v = next;
+    edge = graph.otherThan(v, edge);
+    v = mesh.otherEnd(edge, v);
   }
   chain.closed = v == start && graph.size(start) == 2;
   if (!chain.closed)
@@ -74,12 +58,12 @@ std::vector<Chain> collectChains(const Mesh& mesh, const Grouped<>& graph)
     }
     for (Index i = 0; i < graph.size(v); ++i)
     {
-      const Index next = graph.begin(v)[i];
+      const Index edge = graph.begin(v)[i], next = mesh.otherEnd(edge, v);
       // A chain is found from both of its ends; the inner vertices, or the order of the ends, tell it was.
       const bool direct = graph.size(next) != 2;
       if (direct ? v < next : !seen[next])
       {
-        chains.push_back(followChain(graph, v, next, seen));
+        chains.push_back(followChain(mesh, graph, v, edge, seen));
       }
     }
   }
@@ -89,7 +73,7 @@ std::vector<Chain> collectChains(const Mesh& mesh, const Grouped<>& graph)
     if (graph.size(v) == 2 && !seen[v])
     {
       seen[v] = 1;
-      chains.push_back(followChain(graph, v, *graph.begin(v), seen));
+      chains.push_back(followChain(mesh, graph, v, *graph.begin(v), seen));
     }
   }
   return chains;
@@ -282,7 +266,7 @@ FeatureCurves traceFeatureCurves(const Mesh& mesh, double scale)
   {
     return curves;
   }
-  const Grouped<> graph = constrainedNeighbours(mesh);
+  const Grouped<> graph = edgesAtVertices(mesh, constrainedEdges(mesh));
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     pollNowAndThen(v);

@@ -33,9 +33,6 @@ struct FeatureCurves
   bool onSameCurve(Index a, Index b) const;
 };
 
-/// Direction change above which an inner curve vertex is a corner.
-constexpr double kCornerAngle = radians(40);
-
 /// Traces the curves. A vertex is a corner when the curve bends by more than kCornerAngle both between its two
 /// edges and between the chords to the points `scale` (times the size there) away on both sides, and bends most among
 /// its neighbours within scale / 2: so a corner survives and the staircase of a scan's boundary does not count as one.

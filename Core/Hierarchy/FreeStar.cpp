@@ -17,7 +17,7 @@ namespace
 
 constexpr float kSinglePi = static_cast<float>(kPi);
 constexpr float kInfinitySingle = std::numeric_limits<float>::infinity();
-constexpr float kEquilateralSingle = 3.46410162F; // 2 sqrt(3), see VertexRemoval
+constexpr float kEquilateralSingle = static_cast<float>(kEquilateral);
 /// Stars with a flatter face go to VertexRemoval: their normals and their weights need more digits.
 constexpr float kFlattestFace = 0.022F;
 
@@ -227,7 +227,7 @@ bool FreeStar::measure()
   goRound<N>(ny_);
   goRound<N>(nz_);
   leastPlanar_ =
-    static_cast<float>(std::min(0.3 * double{ worst }, kMinimumPlanarQuality)) / kEquilateralSingle;
+    static_cast<float>(std::min(0.3 * double{ worst }, kSliverQuality)) / kEquilateralSingle;
   mostHarmonic_ = 1 / static_cast<float>(std::min(0.95 * double{ worst }, guards_.minimumQuality));
   return sound;
 }

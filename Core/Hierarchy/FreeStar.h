@@ -51,7 +51,6 @@ public:
 private:
   /// Ring arrays go round once and a half, so that the neighbours of a vertex follow it in memory.
   static constexpr std::size_t kLanes = 24;
-  static constexpr std::size_t kRing = kMost;
   using Lanes = std::array<float, kLanes>;
   struct Triangle
   {
@@ -81,8 +80,8 @@ private:
   RemovalGuards guards_;
   Index vertex_ = kInvalidIndex;
   int size_ = 0;
-  std::array<Index, kRing> ring_{};
-  std::array<Index, kRing>
+  std::array<Index, kMost> ring_{};
+  std::array<Index, kMost>
     slot_{}; ///< corner of the vertex in face i, between ring vertices i and i + 1
 
   // Ring vertices minus vertex, their lengths and their images in the plane.
@@ -96,12 +95,12 @@ private:
   alignas(64)
     std::array<float, 144> cost_{}; ///< of the triangles; infinite for those that are not allowed
 
-  std::array<Triangle, kRing> triangles_{};
-  std::array<std::uint8_t, kRing> diagonals_{}; ///< new diagonals at each ring vertex
+  std::array<Triangle, kMost> triangles_{};
+  std::array<std::uint8_t, kMost> diagonals_{}; ///< new diagonals at each ring vertex
   std::array<std::uint8_t, 3> weightRing_{};
   std::array<float, 2> weight_{};
 
-  FanFlips<kRing> flips_; ///< work of apply()
+  FanFlips<kMost> flips_; ///< work of apply()
 };
 
 } // namespace quadrille

@@ -86,14 +86,9 @@ public:
   IntermediateLevel& intermediate() { return intermediate_; }
   Hierarchy& hierarchy() { return hierarchy_; }
 
-  bool allows(const HierarchyOptions& options) const
-  {
-    return options.targetEdgeLength == intermediate_.edgeLength();
-  }
-
   const Hierarchy& update(const HierarchyOptions& options)
   {
-    refuseIf(!allows(options),
+    refuseIf(options.targetEdgeLength != intermediate_.edgeLength(),
       "The coarse level cannot be made anew: the edge length of phase 1 has changed.");
     checkPhase2(intermediate_.fine(), options);
     const Stopwatch watch;
@@ -170,11 +165,6 @@ Redecimation::Redecimation(
 Redecimation::~Redecimation() = default;
 Redecimation::Redecimation(Redecimation&&) noexcept = default;
 Redecimation& Redecimation::operator=(Redecimation&&) noexcept = default;
-
-bool Redecimation::allows(const HierarchyOptions& options) const
-{
-  return implementation_->allows(options);
-}
 
 const Level& Redecimation::intermediateOfPhase1() const
 {

@@ -109,8 +109,6 @@ public:
   Redecimation(Redecimation&&) noexcept;
   Redecimation& operator=(Redecimation&&) noexcept;
 
-  /// Whether update() can honour the options: the target edge length is that of phase 1. All else may change.
-  bool allows(const HierarchyOptions& options) const;
   /// The intermediate level as phase 1 left it, without vertices that were brought back. Valid until update().
   const Level& intermediateOfPhase1() const;
   /// Other sizes of the finest mesh, for the next update().
@@ -118,7 +116,8 @@ public:
   /// Phase 2: makes the coarse level and the end of the log anew. Vertices to keep that phase 1 has removed come back
   /// first, and as many as are needed where the mesh has smaller sizes now, see VertexRestoration.h. The result depends
   /// on what phase 1 was given, and on what is asked for now, but not on what came between. Throws InvalidInput unless
-  /// allows(). Cancelled leaves the hierarchy without a coarse level.
+  /// the target edge length is that of phase 1; all else may change. Cancelled leaves the hierarchy without a coarse
+  /// level.
   const Hierarchy& update(const HierarchyOptions& options);
   /// The hierarchy after the last update().
   const Hierarchy& hierarchy() const;

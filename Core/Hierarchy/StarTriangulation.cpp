@@ -18,14 +18,10 @@ namespace quadrille
 namespace
 {
 
-/// A face flatter than this has no reliable normal.
-constexpr double kSliverQuality = 0.02;
 /// Less than the harmonic index of any triangle, which is 1 for an equilateral one.
 constexpr double kLeastHarmonic = 0.999;
 /// Cost of a face with three constrained vertices where it is allowed at all.
 constexpr double kConstrainedFaceCost = 50;
-/// Doubled area times this over the sum of squared edges is 1 for an equilateral triangle: 2 sqrt(3).
-constexpr double kEquilateral = 3.4641016151377544;
 
 /// Arc tangent of y / x for y >= 0, in [0, pi], to 3e-10 (interpolation at Chebyshev's nodes). Costs need many
 /// angles, and the same ones on every machine.
@@ -213,13 +209,13 @@ bool VertexRemoval::triangulate(const RemovalGuards& guards)
 {
   leastDot_ = std::min(guards.minimumNormalDot, guards.allowOldFolds ? worstDeviation() : 1.0);
   std::fill(forbidden_.begin(), forbidden_.begin() + ringSize_, std::uint64_t{ 0 });
-  leastPlanar_ = std::clamp(0.3 * starQuality_, 1e-6, kMinimumPlanarQuality) / kEquilateral;
+  leastPlanar_ = std::clamp(0.3 * starQuality_, 1e-6, kSliverQuality) / kEquilateral;
   mostHarmonic_ = 1 / std::clamp(0.95 * starQuality_, 1e-6, guards.minimumQuality);
   if (anyConstrained_)
   {
     forbidChords();
   }
-  std::array<int, kN + 1> polygon;
+  std::array<int, kMaximumRing + 1> polygon;
   for (int i = 0; i <= ringSize_; ++i)
   {
     polygon[index(i)] = i == ringSize_ ? 0 : i;

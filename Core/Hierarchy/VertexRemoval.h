@@ -28,8 +28,10 @@
 namespace quadrille
 {
 
-/// Planar triangles flatter than this carry no useful weights.
-constexpr double kMinimumPlanarQuality = 0.02;
+/// Doubled area times this over the sum of squared edges is 1 for an equilateral triangle: 2 sqrt(3).
+constexpr double kEquilateral = 3.4641016151377544;
+/// Triangles flatter than this have no reliable normal, and planar ones carry no useful weights.
+constexpr double kSliverQuality = 0.02;
 
 /// What a removal must not do to the surface.
 struct RemovalGuards
@@ -98,7 +100,6 @@ public:
   void apply(RecordWriter& log);
 
 private:
-  static constexpr std::size_t kN = kMaximumRing;
   struct Triangle
   {
     std::uint8_t a = 0, b = 0, c = 0;
@@ -152,15 +153,16 @@ private:
   bool anyConstrained_ = false; ///< some ring vertex lies on a curve
   int curveEnd_ = 0; ///< ring position of the second neighbour on the curve; the first one is at 0
 
-  std::array<Index, kN> slot_{}; ///< corner of the vertex in its faces
-  std::array<Index, kN> ring_{};
-  std::array<Vector3, kN> spoke_{}; ///< ring vertex minus vertex
-  std::array<double, kN> length_{};
-  std::array<Vector3, kN> normal_{}; ///< unit normals of the star's faces; zero for slivers
-  std::array<double, kN> doubled_{}; ///< doubled areas of the faces
-  std::array<double, kN> angle_{};   ///< at the vertex
-  std::array<Vector2, kN> planar_{};
-  std::array<std::uint8_t, kN> constrainedEdge_{}; ///< ring edge i -> i + 1
+  std::array<Index, kMaximumRing> slot_{}; ///< corner of the vertex in its faces
+  std::array<Index, kMaximumRing> ring_{};
+  std::array<Vector3, kMaximumRing> spoke_{}; ///< ring vertex minus vertex
+  std::array<double, kMaximumRing> length_{};
+  std::array<Vector3, kMaximumRing>
+    normal_{}; ///< unit normals of the star's faces; zero for slivers
+  std::array<double, kMaximumRing> doubled_{}; ///< doubled areas of the faces
+  std::array<double, kMaximumRing> angle_{};   ///< at the vertex
+  std::array<Vector2, kMaximumRing> planar_{};
+  std::array<std::uint8_t, kMaximumRing> constrainedEdge_{}; ///< ring edge i -> i + 1
   std::array<Vector3, 2> sideNormal_{};
   double starArea_ = 0;
   double starQuality_ = 0;
@@ -169,18 +171,18 @@ private:
   double leastPlanar_ = 0;        ///< doubled area over sum of squared edges, of planar triangles
   double mostHarmonic_ = 0;       ///< harmonic index (1 / quality) of new triangles
 
-  std::array<std::uint64_t, kN> forbidden_{};
-  std::array<std::array<double, kN>, kN> best_{};
-  std::array<std::array<std::uint8_t, kN>, kN> split_{};
-  std::array<Triangle, kN> triangles_{};
+  std::array<std::uint64_t, kMaximumRing> forbidden_{};
+  std::array<std::array<double, kMaximumRing>, kMaximumRing> best_{};
+  std::array<std::array<std::uint8_t, kMaximumRing>, kMaximumRing> split_{};
+  std::array<Triangle, kMaximumRing> triangles_{};
   int triangleCount_ = 0;
   bool metExistingDiagonal_ = false;
-  std::array<std::uint8_t, kN> diagonals_{}; ///< new diagonals at each ring vertex
+  std::array<std::uint8_t, kMaximumRing> diagonals_{}; ///< new diagonals at each ring vertex
 
   std::array<std::uint8_t, 3> weightRing_{};
   std::array<std::uint32_t, 2> weight_{}; ///< in units of 2^-32
 
-  FanFlips<kN> flips_; ///< work of apply()
+  FanFlips<kMaximumRing> flips_; ///< work of apply()
 };
 
 } // namespace quadrille

@@ -17,9 +17,6 @@ namespace quadrille
 namespace
 {
 
-/// A part of a curve bends where that asks for so many times the edges that its length is worth, but for rounding.
-constexpr double kBent = 1 + 1e-9;
-
 /// #V: the map has no corner there.
 std::vector<std::uint8_t> smoothVertices(const Mesh& mesh, const CrossField& field)
 {
@@ -70,7 +67,8 @@ std::vector<CurveShare> sharesOfCurves(const Mesh& mesh, const CrossField& field
       {
         const double straight = sizedLength(mesh, edge) / edgeLength;
         length += straight;
-        (quads[edge] > kBent * straight ? asked.bent : asked.rest) += quads[edge];
+        // A part of a curve bends where it gets more edges than its length is worth.
+        (quads[edge] > (1 + kRounding) * straight ? asked.bent : asked.rest) += quads[edge];
         inMap += IntegerMap::lengthOf(seamlessUv[Mesh::next(edge)] - seamlessUv[edge]);
         at = mesh.otherEnd(edge, at);
         if (isLeft(at) || edges[at].size() != 2)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Integers/LockedVertices.h"
 
-#include "Base/DisjointSets.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 
@@ -43,7 +43,8 @@ void flagOnePerSet(
 void keepWhatTopologyNeeds(const Mesh& mesh, LockedVertices& locked)
 {
   DisjointSets curves(mesh.vertexCount(), 1), components(mesh.vertexCount(), 1);
-  std::vector<std::uint8_t> onCurve(mesh.vertexCount(), 0), used(mesh.vertexCount(), 0);
+  const std::vector<std::uint8_t> onCurve = constrainedVertices(mesh);
+  std::vector<std::uint8_t> used(mesh.vertexCount(), 0);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     used[mesh.origin[h]] = 1;
@@ -51,7 +52,6 @@ void keepWhatTopologyNeeds(const Mesh& mesh, LockedVertices& locked)
     if (mesh.isConstrained(h))
     {
       curves.join(mesh.origin[h], mesh.target(h));
-      onCurve[mesh.origin[h]] = onCurve[mesh.target(h)] = 1;
     }
   }
   flagOnePerSet(curves, onCurve, locked.keep);
@@ -83,13 +83,12 @@ std::vector<std::uint8_t> cornerLocks(
       done[v] = 1;
       bool alongU = map.vector(first).v == 0;
       // For a boundary vertex this is its first corner, so the fan is complete.
-      Index h = first;
-      do
-      {
-        locks[h] = alongU ? kLockedV : kLockedU;
-        alongU = alongU == (map.rotation[Mesh::previous(h)] % 2 == 0);
-        h = mesh.rotateCounterclockwise(h);
-      } while (h != kInvalidIndex && h != first);
+      forEachFrom(mesh, first,
+        [&](Index h)
+        {
+          locks[h] = alongU ? kLockedV : kLockedU;
+          alongU = alongU == (map.rotation[Mesh::previous(h)] % 2 == 0);
+        });
     }
   }
   return locks;

@@ -11,6 +11,7 @@
 #include "Integers/LockedVertices.h"
 #include "Integers/QuantizeIntegers.h"
 #include "Integers/UvDecimation.h"
+#include "Mesh/BreadthFirst.h"
 #include "Requests/SeamRequests.h"
 
 #include <algorithm>
@@ -129,30 +130,13 @@ void moveChart(UvMesh& mesh, Index f, FixedVec2 by)
 /// Joins charts: along a spanning tree of the faces the transitions become rotations without translation.
 void joinCharts(UvMesh& mesh)
 {
-  std::vector<std::uint8_t> reached(mesh.alive.size(), 0);
-  std::vector<Index> queue;
-  for (Index seed = 0; seed < mesh.alive.size(); ++seed)
-  {
-    if (reached[seed])
+  visitFaces(
+    mesh.twin, [](Index) {},
+    [&](Index h)
     {
-      continue;
-    }
-    reached[seed] = 1;
-    queue.assign(1, seed);
-    for (std::size_t i = 0; i < queue.size(); ++i)
-    {
-      for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h)
-      {
-        const Index g = mesh.twin[h];
-        if (g != kInvalidIndex && !reached[Mesh::face(g)])
-        {
-          reached[Mesh::face(g)] = 1;
-          moveChart(mesh, Mesh::face(g), -mesh.transition(h).translation);
-          queue.push_back(Mesh::face(g));
-        }
-      }
-    }
-  }
+      moveChart(mesh, Mesh::face(mesh.twin[h]), -mesh.transition(h).translation);
+      return true;
+    });
 }
 
 /// Integers that begin as those of a map along the same field; not valid where they lead nowhere.

@@ -6,20 +6,25 @@
 #include "Mesh/Surface.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace quadrille
 {
 
-/// Whether a valence or the turns of a sector are asked for at the vertex; both lists are ascending by vertex.
+/// What is asked for at the vertex; null: nothing. The list is ascending by vertex.
+template <typename Request>
+const Request* requestAt(const std::vector<Request>& requests, Index v)
+{
+  const auto at = std::lower_bound(requests.begin(), requests.end(), v,
+    [](const Request& request, Index vertex) { return request.vertex < vertex; });
+  return at != requests.end() && at->vertex == v ? &*at : nullptr;
+}
+
+/// Whether a valence or the turns of a sector are asked for at the vertex.
 inline bool isAskedFor(const PreparedSurface& surface, Index v)
 {
-  const auto names = [v](const auto& requests)
-  {
-    const auto at = std::lower_bound(requests.begin(), requests.end(), v,
-      [](const auto& request, Index vertex) { return request.vertex < vertex; });
-    return at != requests.end() && at->vertex == v;
-  };
-  return names(surface.valenceRequests) || names(surface.sectorRequests);
+  return requestAt(surface.valenceRequests, v) != nullptr ||
+    requestAt(surface.sectorRequests, v) != nullptr;
 }
 
 } // namespace quadrille

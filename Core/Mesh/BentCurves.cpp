@@ -28,18 +28,13 @@ class CurveWalk
 {
 public:
   CurveWalk(const Mesh& mesh, const std::vector<std::uint8_t>& smooth)
-    : mesh_(mesh), edges_(mesh.vertexCount(), { kInvalidIndex, kInvalidIndex }),
+    : mesh_(mesh), edges_(edgesAtVertices(mesh, constrainedEdges(mesh))),
       passes_(mesh.vertexCount(), 0)
   {
-    for (const Index h : constrainedEdges(mesh))
-    {
-      add(mesh.origin[h], h);
-      add(mesh.target(h), h);
-    }
     for (Index v = 0; v < mesh.vertexCount(); ++v)
     {
       const bool isSmooth = !smooth.empty() && smooth[v] != 0;
-      passes_[v] = passes_[v] == 2 && (isSmooth || bendAt(v) <= kPolygonCorner) ? 1 : 0;
+      passes_[v] = edges_.size(v) == 2 && (isSmooth || bendAt(v) <= kPolygonCorner) ? 1 : 0;
     }
   }
 
@@ -48,7 +43,8 @@ public:
   /// Of the curve that passes a vertex, between chords of at least the length, unless it ends before.
   double curvatureAt(Index v, double length) const
   {
-    const Chord back = chord(v, edges_[v][0], length), ahead = chord(v, edges_[v][1], length);
+    const Chord back = chord(v, edges_.begin(v)[0], length),
+                ahead = chord(v, edges_.begin(v)[1], length);
     return angleBetween(-back.across, ahead.across) / (0.5 * (back.length + ahead.length));
   }
 
@@ -59,22 +55,13 @@ private:
     double length = 0; ///< along the curve
   };
 
-  void add(Index v, Index edge)
-  {
-    if (passes_[v] < 2)
-    {
-      edges_[v][passes_[v]] = edge;
-    }
-    passes_[v] = static_cast<std::uint8_t>(std::min(passes_[v] + 1, 3));
-  }
-
   Vector3 away(Index v, Index edge) const
   {
     return mesh_.position[mesh_.otherEnd(edge, v)] - mesh_.position[v];
   }
   double bendAt(Index v) const
   {
-    return angleBetween(-away(v, edges_[v][0]), away(v, edges_[v][1]));
+    return angleBetween(-away(v, edges_.begin(v)[0]), away(v, edges_.begin(v)[1]));
   }
 
   Chord chord(Index v, Index edge, double length) const
@@ -83,7 +70,7 @@ private:
     Chord result{ away(v, edge), mesh_.edgeVector(edge).norm() };
     while (result.length < length && passes(at))
     {
-      edge = edges_[at][0] == edge ? edges_[at][1] : edges_[at][0];
+      edge = edges_.otherThan(at, edge);
       at = mesh_.otherEnd(edge, at);
       if (at == v)
       {
@@ -96,9 +83,8 @@ private:
   }
 
   const Mesh& mesh_;
-  std::vector<std::array<Index, 2>>
-    edges_;                          ///< at vertices that have two, by their lower half-edges
-  std::vector<std::uint8_t> passes_; ///< flags; until all are added, how many there are
+  Grouped<> edges_;                  ///< constrained ones at each vertex, by their lower half-edges
+  std::vector<std::uint8_t> passes_; ///< flags
 };
 
 } // namespace

@@ -44,12 +44,28 @@ public:
     return best;
   }
 
-  /// The boundary half-edge that leaves a vertex; kInvalidIndex inside.
-  Index outgoing(Index v) const { return outgoing_[v]; }
+  /// The boundary from one vertex on, up to the next one that ends it; none where that is another one than `to`.
+  template <typename Ends>
+  std::vector<Index> walk(Index from, Index to, const Ends& ends) const
+  {
+    std::vector<Index> edges;
+    Index v = from;
+    do
+    {
+      const Index h = v == kInvalidIndex ? kInvalidIndex : outgoing_[v];
+      if (h == kInvalidIndex)
+      {
+        return {};
+      }
+      edges.push_back(h);
+      v = mesh_.target(h);
+    } while (!ends(v));
+    return v == to ? edges : std::vector<Index>{};
+  }
 
 private:
   const Mesh& mesh_;
-  std::vector<Index> outgoing_; ///< #V
+  std::vector<Index> outgoing_; ///< #V: boundary half-edge; kInvalidIndex inside
   std::vector<Index> vertices_;
 };
 

@@ -2,24 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/CutOpen.h"
 
-#include "Base/Lists.h"
-#include "Base/Progress.h"
+#include "Mesh/Topology.h"
 
 namespace quadrille
 {
 
 std::vector<Index> cutOpen(Mesh& mesh, const std::vector<std::uint8_t>& isCut)
 {
-  std::vector<std::uint8_t> isOnCut(mesh.vertexCount(), 0);
+  const std::vector<std::uint8_t> isOnCut = endsWhere(mesh, [&](Index h) { return isCut[h] != 0; });
   Index* twin = mesh.twin.edit();
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
-    pollNowAndThen(h);
-    if (isCut[h] != 0)
-    {
-      isOnCut[mesh.origin[h]] = isOnCut[mesh.target(h)] = 1;
-      twin[h] = kInvalidIndex;
-    }
+    twin[h] = isCut[h] != 0 ? kInvalidIndex : twin[h];
   }
   const Index vertices = mesh.vertexCount();
   const Grouped<> leaving(vertices,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/FlatSources.h"
 
+#include "Base/Lists.h"
+
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -16,12 +18,8 @@ TriangleList trianglesOf(const Mesh& mesh, const std::vector<Index>& faces)
   TriangleList triangles;
   for (const Index f : faces)
   {
-    const Index first = static_cast<Index>(triangles.points.size());
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
-    {
-      triangles.points.push_back(mesh.position[mesh.origin[h]]);
-    }
-    triangles.corners.push_back({ first, first + 1, first + 2 });
+    const std::array<Vector3, 3> corners = mesh.cornersOfFace(f);
+    triangles.add(corners[0], corners[1], corners[2]);
   }
   return triangles;
 }
@@ -48,7 +46,7 @@ std::array<double, 3> withoutRounding(std::array<double, 3> weights)
   double sum = 0;
   for (double& weight : weights)
   {
-    weight = weight < kOnTriangleEdge ? 0 : weight;
+    weight = weight < kRounding ? 0 : weight; // on the edge
     sum += weight;
   }
   for (double& weight : weights)
@@ -140,13 +138,8 @@ std::vector<FlatSources::Triangle> FlatSources::triangles() const
       found.push_back({ before_.sourcePolygon[f], before_.sourcePoints[f] });
     }
   }
-  const auto key = [](const Triangle& triangle)
-  { return std::pair(triangle.polygon, triangle.points); };
-  std::sort(found.begin(), found.end(),
-    [&](const Triangle& a, const Triangle& b) { return key(a) < key(b); });
-  found.erase(std::unique(found.begin(), found.end(),
-                [&](const Triangle& a, const Triangle& b) { return key(a) == key(b); }),
-    found.end());
+  sortUniqueBy(
+    found, [](const Triangle& triangle) { return std::pair(triangle.polygon, triangle.points); });
   return found;
 }
 

@@ -16,8 +16,6 @@ namespace quadrille
 /// By how much, over the diagonal of the bounding box, four points of a plane leave it where their coordinates were
 /// rounded to single precision.
 constexpr double kFlatHeight = 0x1p-21;
-/// A barycentric coordinate below it is rounding: the place is on the edge.
-constexpr double kOnTriangleEdge = 1e-9;
 /// Barycentric coordinates in a triangle, with 0 for those that are rounding.
 std::array<double, 3> withoutRounding(std::array<double, 3> weights);
 

@@ -86,10 +86,10 @@ struct Mesh
   }
 };
 
-/// Calls visit(g) for each half-edge g that leaves the origin of h and is in the same fan: from h on counterclockwise,
-/// and then what lies clockwise of it up to a boundary.
+/// Calls visit(g) for the half-edges that leave the vertex of h, counterclockwise from h on, all round it or up to the
+/// boundary. Returns whether that is all round.
 template <typename Visitor>
-void forEachInFan(const Mesh& mesh, Index h, Visitor&& visit)
+bool forEachFrom(const Mesh& mesh, Index h, Visitor&& visit)
 {
   Index g = h;
   do
@@ -97,11 +97,19 @@ void forEachInFan(const Mesh& mesh, Index h, Visitor&& visit)
     visit(g);
     g = mesh.rotateCounterclockwise(g);
   } while (g != kInvalidIndex && g != h);
-  if (g == h)
+  return g == h;
+}
+
+/// Calls visit(g) for each half-edge g that leaves the origin of h and is in the same fan: from h on counterclockwise,
+/// and then what lies clockwise of it up to a boundary.
+template <typename Visitor>
+void forEachInFan(const Mesh& mesh, Index h, Visitor&& visit)
+{
+  if (forEachFrom(mesh, h, visit))
   {
     return;
   }
-  for (g = mesh.rotateClockwise(h); g != kInvalidIndex; g = mesh.rotateClockwise(g))
+  for (Index g = mesh.rotateClockwise(h); g != kInvalidIndex; g = mesh.rotateClockwise(g))
   {
     visit(g);
   }

@@ -86,6 +86,20 @@ Vector3 wayOf(const TriangleList& triangles, const Corners& corners, Index t)
 
 } // namespace
 
+void TriangleList::add(const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  const auto first = static_cast<Index>(points.size());
+  points.insert(points.end(), { a, b, c });
+  corners.push_back({ first, first + 1, first + 2 });
+}
+
+void TriangleList::addSegment(const Vector3& a, const Vector3& b)
+{
+  const auto first = static_cast<Index>(points.size());
+  points.insert(points.end(), { a, b });
+  corners.push_back({ first, first + 1, first + 1 });
+}
+
 TriangleList trianglesOf(const Mesh& mesh)
 {
   TriangleList list;

@@ -19,6 +19,10 @@ struct TriangleList
 {
   std::vector<Vector3> points;
   std::vector<std::array<Index, 3>> corners;
+
+  /// With points of its own.
+  void add(const Vector3& a, const Vector3& b, const Vector3& c);
+  void addSegment(const Vector3& a, const Vector3& b);
 };
 
 TriangleList trianglesOf(const Mesh& mesh);

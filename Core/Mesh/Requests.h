@@ -25,6 +25,10 @@ constexpr int kMostValence = 8;
 constexpr int kRegularValence = 4;
 /// On a boundary: a corner with one quad.
 constexpr int kLeastOnBoundary = 3;
+/// Quarter turns of a sector in which the quads' edges go straight on.
+constexpr int kStraightTurns = 2;
+/// Sizes are met up to this factor: of the median; of an array of sizes, on average.
+constexpr double kMetFactor = 1.25;
 
 /// The direction that one family of the quads' edges should have in a face.
 struct Guide

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -358,6 +359,42 @@ PreparedSurface withoutElements(const PreparedSurface& whole)
   surface.seconds = whole.seconds;
   surface.notice = whole.notice;
   return surface;
+}
+
+TrianglesOfMesh partOf(const Mesh& whole, const std::vector<Index>& triangles)
+{
+  TrianglesOfMesh part;
+  Mesh& mesh = part.mesh;
+  std::map<Index, Index> newVertex, newFace;
+  for (const Index f : triangles)
+  {
+    newFace.emplace(f, static_cast<Index>(newFace.size()));
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      const Index v = whole.origin[h];
+      if (newVertex.emplace(v, static_cast<Index>(part.vertices.size())).second)
+      {
+        part.vertices.push_back(v);
+        mesh.position.push_back(Vector3(whole.position[v]));
+        if (!whole.sizing.empty())
+        {
+          mesh.sizing.push_back(float{ whole.sizing[v] });
+        }
+      }
+      mesh.origin.push_back(Index{ newVertex[v] });
+      mesh.flags.push_back(0);
+    }
+  }
+  for (const Index f : triangles)
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      const Index twin = whole.twin[h];
+      const auto beyond = twin == kInvalidIndex ? newFace.end() : newFace.find(Mesh::face(twin));
+      mesh.twin.push_back(beyond == newFace.end() ? kInvalidIndex : 3 * beyond->second + twin % 3);
+    }
+  }
+  return part;
 }
 
 } // namespace quadrille

@@ -34,4 +34,12 @@ void appendMesh(const Mesh& part, Mesh& all);
 /// The whole without elements, for parts to be appended.
 PreparedSurface withoutElements(const PreparedSurface& whole);
 
+/// Triangles of a mesh as one of their own; joined as they are there, sizes as there, no flags.
+struct TrianglesOfMesh
+{
+  Mesh mesh;
+  std::vector<Index> vertices; ///< which of the whole mesh's these are
+};
+TrianglesOfMesh partOf(const Mesh& whole, const std::vector<Index>& triangles);
+
 } // namespace quadrille

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Topology.h"
 
-#include "Base/DisjointSets.h"
 #include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
@@ -194,38 +193,9 @@ std::string checkFans(const Mesh& mesh)
   return {};
 }
 
-/// Flags (#V) of the ends of half-edges for which the predicate holds.
-template <typename Predicate>
-std::vector<std::uint8_t> endsWhere(const Mesh& mesh, const Predicate& predicate)
+bool acrossAll(Index)
 {
-  std::vector<std::uint8_t> flags(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    if (predicate(h))
-    {
-      flags[mesh.origin[h]] = flags[mesh.target(h)] = 1;
-    }
-  }
-  return flags;
-}
-
-/// Faces that hang together.
-DisjointSets joinedFaces(const Mesh& mesh, int threads)
-{
-  DisjointSets faces(mesh.faceCount(), threads);
-  parallelForEach(mesh.faceCount(), kLightChunk, threads,
-    [&](Index f)
-    {
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        if (mesh.twin[h] < h)
-        {
-          faces.join(f, Mesh::face(mesh.twin[h]));
-        }
-      }
-    });
-  return faces;
+  return true;
 }
 
 } // namespace
@@ -362,16 +332,21 @@ Index nextOnBoundary(const Mesh& mesh, Index h)
 
 std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount, int threads)
 {
-  DisjointSets faces = joinedFaces(mesh, threads);
-  std::vector<Index> component(mesh.faceCount());
-  componentCount = 0;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
+  DisjointSets faces = joinedFaces(mesh, threads, acrossAll);
+  return numberSets(faces, mesh.faceCount(), componentCount);
+}
+
+std::vector<Index> numberSets(DisjointSets& sets, Index count, Index& setCount)
+{
+  std::vector<Index> number(count);
+  setCount = 0;
+  for (Index i = 0; i < count; ++i)
   {
-    pollNowAndThen(f);
-    const Index root = faces.find(f); // the lowest face of its component
-    component[f] = root == f ? componentCount++ : component[root];
+    pollNowAndThen(i);
+    const Index root = sets.find(i);
+    number[i] = root == i ? setCount++ : number[root];
   }
-  return component;
+  return number;
 }
 
 TopologySummary summarizeTopology(const Mesh& mesh, int threads)
@@ -379,7 +354,7 @@ TopologySummary summarizeTopology(const Mesh& mesh, int threads)
   TopologySummary summary;
   summary.vertices = mesh.vertexCount();
   summary.faces = mesh.faceCount();
-  summary.components = static_cast<Index>(joinedFaces(mesh, threads).countSets());
+  summary.components = static_cast<Index>(joinedFaces(mesh, threads, acrossAll).countSets());
   const std::vector<Index> boundary = boundaryHalfEdges(mesh, threads);
   summary.boundaryLoops = countBoundaryLoops(mesh, boundary);
   summary.edges = static_cast<Index>((std::size_t{ mesh.halfEdgeCount() } + boundary.size()) / 2);

@@ -3,7 +3,9 @@
 /// Connectivity queries on Mesh that are shared by all stages.
 #pragma once
 
+#include "Base/DisjointSets.h"
 #include "Base/Lists.h"
+#include "Base/Progress.h"
 #include "Mesh/Mesh.h"
 
 #include <array>
@@ -29,6 +31,22 @@ std::vector<Index> constrainedEdges(const Mesh& mesh, int threads = 1);
 /// given.
 Grouped<> edgesAtVertices(const Mesh& mesh, const std::vector<Index>& edges);
 
+/// Flags (#V) of the ends of half-edges for which the predicate holds.
+template <typename Predicate>
+std::vector<std::uint8_t> endsWhere(const Mesh& mesh, const Predicate& predicate)
+{
+  std::vector<std::uint8_t> flags(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    if (predicate(h))
+    {
+      flags[mesh.origin[h]] = flags[mesh.target(h)] = 1;
+    }
+  }
+  return flags;
+}
+
 /// Flags (#V) of the ends of edges that are features or on the boundary.
 std::vector<std::uint8_t> constrainedVertices(const Mesh& mesh);
 
@@ -40,6 +58,28 @@ std::vector<int> regularTurns(const Mesh& mesh);
 
 /// The boundary half-edge that follows a boundary half-edge on its loop.
 Index nextOnBoundary(const Mesh& mesh, Index h);
+
+/// Faces that hang together across the edges that the predicate lets through, given by their higher half-edges.
+template <typename Predicate>
+DisjointSets joinedFaces(const Mesh& mesh, int threads, const Predicate& isOpen)
+{
+  DisjointSets faces(mesh.faceCount(), threads);
+  parallelForEach(mesh.faceCount(), kLightChunk, threads,
+    [&](Index f)
+    {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        if (mesh.twin[h] < h && isOpen(h))
+        {
+          faces.join(f, Mesh::face(mesh.twin[h]));
+        }
+      }
+    });
+  return faces;
+}
+
+/// Set id per element (count of them), numbered by lowest element; the number of sets comes back in setCount.
+std::vector<Index> numberSets(DisjointSets& sets, Index count, Index& setCount);
 
 /// Component id per face, numbered by lowest face id; the count comes back in componentCount.
 std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount, int threads = 1);

@@ -332,7 +332,7 @@ std::array<double, 3> insideWeights(std::array<double, 3> weights)
 }
 
 void check(const Level& level, const DecimationLog& log, std::size_t rounds,
-  const std::vector<FacePlace>& places)
+  const std::vector<SurfacePoint>& places)
 {
   const bool isOfLog = rounds <= log.rounds.size() &&
     level.fineFace.size() == level.mesh.faceCount() &&
@@ -341,7 +341,7 @@ void check(const Level& level, const DecimationLog& log, std::size_t rounds,
   refuseIf(!isOfLog, "A level of ", level.mesh.faceCount(), " faces after ", rounds,
     " rounds is not one of the decimation log, of ", log.rounds.size(), " rounds for ",
     log.fineFaces, " faces.");
-  for (const FacePlace& place : places)
+  for (const SurfacePoint& place : places)
   {
     refuseIf(place.face >= level.mesh.faceCount(), "A place is on face ", place.face,
       ", but the level has ", level.mesh.faceCount(), " faces.");
@@ -350,8 +350,9 @@ void check(const Level& level, const DecimationLog& log, std::size_t rounds,
 
 } // namespace
 
-std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log, std::size_t rounds,
-  const std::vector<FacePlace>& places, int threads, const ProgressCallback& progress)
+std::vector<SurfacePoint> carryPlaces(const Level& level, const DecimationLog& log,
+  std::size_t rounds, const std::vector<SurfacePoint>& places, int threads,
+  const ProgressCallback& progress)
 {
   check(level, log, rounds, places);
   Carried carried{ {}, std::vector<FlatPoint>(places.size()),
@@ -384,7 +385,7 @@ std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log,
     parallelForEach(blocks.blockCount, 1, threads,
       [&](std::size_t block) { BlockCarrier(carried).run(log.blocks[blocks.firstBlock + block]); });
   }
-  std::vector<FacePlace> result(places.size());
+  std::vector<SurfacePoint> result(places.size());
   for (Index f = 0; f < log.fineFaces; ++f)
   {
     pollNowAndThen(f);

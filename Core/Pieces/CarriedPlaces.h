@@ -6,6 +6,7 @@
 
 #include "Base/Progress.h"
 #include "Hierarchy/Hierarchy.h"
+#include "Quads/SurfaceWalk.h"
 
 #include <array>
 #include <vector>
@@ -13,17 +14,12 @@
 namespace quadrille
 {
 
-struct FacePlace
-{
-  Index face = kInvalidIndex;
-  std::array<double, 3> weights{}; ///< barycentric, sum 1, none below 0
-};
-
 /// places: on faces of `level`, which the rounds [0, rounds) of the log lead to. Returns the same on the finest mesh,
-/// one each. Where a star has no room for its vertex, a place goes to the triangle that it is least far outside of. The
-/// result does not depend on the number of threads (0: all). Throws InvalidInput where the level or the places are not
-/// of the log.
-std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log, std::size_t rounds,
-  const std::vector<FacePlace>& places, int threads, const ProgressCallback& progress);
+/// one each, without weights below 0. Where a star has no room for its vertex, a place goes to the triangle that it is
+/// least far outside of. The result does not depend on the number of threads (0: all). Throws InvalidInput where the
+/// level or the places are not of the log.
+std::vector<SurfacePoint> carryPlaces(const Level& level, const DecimationLog& log,
+  std::size_t rounds, const std::vector<SurfacePoint>& places, int threads,
+  const ProgressCallback& progress);
 
 } // namespace quadrille

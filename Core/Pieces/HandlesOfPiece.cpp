@@ -6,6 +6,7 @@
 #include "Details/CloseHandles.h"
 #include "Details/Handles.h"
 #include "Details/NearLoops.h"
+#include "Pipeline/Attempt.h"
 
 #include <algorithm>
 #include <numeric>
@@ -13,21 +14,6 @@
 
 namespace quadrille
 {
-namespace
-{
-
-bool isBeside(const Mesh& mesh, const std::vector<Index>& place, const std::vector<Vector3>& kept,
-  double distance)
-{
-  return std::any_of(place.begin(), place.end(),
-    [&](Index v)
-    {
-      return std::any_of(kept.begin(), kept.end(),
-        [&](const Vector3& p) { return (mesh.position[v] - p).norm() < distance; });
-    });
-}
-
-} // namespace
 
 std::vector<ShortHandle> findShortHandles(const Mesh& mesh, const Level& level, double closedLoop,
   double quadEdge, const std::vector<Vector3>& kept, int threads)
@@ -41,7 +27,8 @@ std::vector<ShortHandle> findShortHandles(const Mesh& mesh, const Level& level, 
   for (HandleLoop& loop : findShortHandles(level.mesh, kLongerAlongEdges * closedLoop))
   {
     std::vector<Index> place = onFinest(loop.vertices, level);
-    if (!isBeside(mesh, place, kept, closedLoop))
+    if (std::none_of(place.begin(), place.end(),
+          [&](Index v) { return isNear(mesh.position[v], kept, closedLoop); }))
     {
       places.push_back(std::move(place));
       onLevel.push_back(std::move(loop.vertices));
@@ -117,7 +104,7 @@ void HandlesOfPiece::findNewVertices(const PreparedSurface& surface)
   }
 }
 
-std::optional<Vector3> HandlesOfPiece::offInput(const FacePlace& place) const
+std::optional<Vector3> HandlesOfPiece::offInput(const SurfacePoint& place) const
 {
   const auto found = std::lower_bound(offFaces_.begin(), offFaces_.end(), place.face,
     [](const OffFace& off, Index face) { return off.face < face; });

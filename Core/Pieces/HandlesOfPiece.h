@@ -52,7 +52,7 @@ public:
   /// of a vertex on its edge.
   bool isNew(Index v) const { return !isNew_.empty() && isNew_[v] != 0; }
   /// The place itself where the face has such a vertex: its source is beside it then.
-  std::optional<Vector3> offInput(const FacePlace& place) const;
+  std::optional<Vector3> offInput(const SurfacePoint& place) const;
 
 private:
   /// A face with a vertex that the input does not have.

@@ -8,15 +8,7 @@
 
 namespace quadrille
 {
-namespace
-{
-
-/// By how much a point may be off the place that its source names, over the size of the triangle.
-constexpr double kSameSpot = 1e-6;
-
-} // namespace
-
-std::optional<FacePlace> placeOnSource(const PreparedSurface& mapped, Index face,
+std::optional<SurfacePoint> placeOnSource(const PreparedSurface& mapped, Index face,
   const std::array<double, 3>& weights, const SourceTriangles& source, const Vector3* point)
 {
   const SourceLocation at = mapped.locate(face, weights);
@@ -25,7 +17,7 @@ std::optional<FacePlace> placeOnSource(const PreparedSurface& mapped, Index face
     return std::nullopt;
   }
   const Index* const corners = &source.corners[3 * std::size_t{ at.polygon }];
-  FacePlace found;
+  SurfacePoint found;
   found.face = at.polygon;
   Vector3 place = Vector3::Zero();
   double sum = 0, size = 0;
@@ -42,7 +34,9 @@ std::optional<FacePlace> placeOnSource(const PreparedSurface& mapped, Index face
     place += weight * source.points[corners[k]];
     size = std::max(size, (source.points[corners[k]] - source.points[corners[0]]).norm());
   }
-  if (!(sum > 0) || (point != nullptr && !((place / sum - *point).norm() <= kSameSpot * size)))
+  // Or the point is off the place that its source names.
+  if (!(sum > 0) ||
+    (point != nullptr && !((place / sum - *point).norm() <= kRoundingOfSingle * size)))
   {
     return std::nullopt;
   }

@@ -24,13 +24,13 @@ struct SourceTriangles
 
 /// The place with these weights in a face of `mapped`, on a triangle of its source. None where it lies on no triangle,
 /// as where a handle was closed, or, with `point`, where the place is elsewhere than there.
-std::optional<FacePlace> placeOnSource(const PreparedSurface& mapped, Index face,
+std::optional<SurfacePoint> placeOnSource(const PreparedSurface& mapped, Index face,
   const std::array<double, 3>& weights, const SourceTriangles& source, const Vector3* point);
 
 /// Of points and middles of quads.
 struct PlacesOfQuads
 {
-  std::vector<FacePlace> places;
+  std::vector<SurfacePoint> places;
   std::vector<std::size_t> whose; ///< points, then quads: those that have a place
 };
 

@@ -313,15 +313,7 @@ private:
     std::vector<StageRecord> sums;
     for (const Part& part : parts_)
     {
-      const std::vector<StageRecord>& records = part.piece->stages().all();
-      sums.resize(std::max(sums.size(), records.size()));
-      for (std::size_t i = 0; i < records.size(); ++i)
-      {
-        sums[i].stage = records[i].stage;
-        sums[i].seconds += records[i].seconds;
-        sums[i].elementsIn += records[i].elementsIn;
-        sums[i].elementsOut += records[i].elementsOut;
-      }
+      addPart(part.piece->stages().all(), sums);
     }
     return sums;
   }
@@ -373,14 +365,14 @@ private:
     const QuadMesh& quads = result_.remeshed.quads;
     result_.pointSource.resize(quads.points.size());
     result_.quadSource.resize(quads.quads.size());
-    std::vector<std::vector<PiecePlace>> places(parts_.size());
+    std::vector<std::vector<SurfacePoint>> places(parts_.size());
     std::vector<std::vector<std::size_t>> whose(parts_.size());
     const SourceTriangles source{ joined.surface.polygonPoints, joined.surface.points };
     const PlacesOfQuads found = placesOfQuads(result_.remeshed.surface, quads, source);
     const auto& first = joined.firstTriangle;
     for (std::size_t i = 0; i < found.places.size(); ++i)
     {
-      const FacePlace& on = found.places[i];
+      const SurfacePoint& on = found.places[i];
       const auto piece = static_cast<std::size_t>(
         std::upper_bound(first.begin(), first.end(), on.face) - first.begin() - 1);
       places[piece].push_back({ on.face - first[piece], on.weights });
@@ -397,7 +389,7 @@ private:
   }
 
   void carryPart(
-    std::size_t p, const std::vector<PiecePlace>& places, const std::vector<std::size_t>& whose)
+    std::size_t p, const std::vector<SurfacePoint>& places, const std::vector<std::size_t>& whose)
   {
     if (places.empty())
     {
@@ -482,7 +474,7 @@ PiecesResult remeshInPieces(
   catch (const Cancelled&)
   {
     result = {};
-    result.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    result.remeshed.becomeStopped();
   }
   return result;
 }

@@ -18,14 +18,16 @@
 #pragma once
 
 #include "Base/Progress.h"
+#include "Hierarchy/Hierarchy.h"
 #include "Mesh/Surface.h"
+#include "Pieces/CarriedPlaces.h"
+#include "Pieces/HandlesOfPiece.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/SmallDetails.h"
 #include "Pipeline/StageRecords.h"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,13 +82,6 @@ struct PieceLevel
   std::vector<std::uint8_t> requestedFeatures; ///< #F; the same of features that the input names
 };
 
-/// A point on a triangle of a PieceLevel.
-struct PiecePlace
-{
-  Index triangle = kInvalidIndex;
-  std::array<double, 3> weights{}; ///< barycentric, sum 1, none below 0
-};
-
 /// Where a place of a PieceLevel lies on the piece.
 struct CarriedPlace
 {
@@ -102,38 +97,65 @@ public:
   /// where quads are to be smaller, so are the triangles.
   /// Throws InvalidInput as prepareSurface does, also for an input without polygons.
   SurfacePiece(SurfaceInput input, const PieceOptions& options);
-  ~SurfacePiece();
-  SurfacePiece(SurfacePiece&&) noexcept;
-  SurfacePiece& operator=(SurfacePiece&&) noexcept;
 
   /// Ids of the input's points on the boundary of the piece as it is after repair, ascending: those that other pieces
   /// may share.
-  const std::vector<Index>& boundary() const;
+  const std::vector<Index>& boundary() const { return boundary_; }
   /// What repair changed, see RepairReport::text().
-  std::string repairText() const;
+  std::string repairText() const { return surface_.repair.text(); }
   /// The handles that thinOut() has cut and closed.
-  const std::vector<SmallDetail>& closedHandles() const;
+  const std::vector<SmallDetail>& closedHandles() const { return handles_.closed(); }
 
   /// Repair, order, connectivity, phase1 and carry, as far as they are done.
-  const StageRecords& stages() const;
+  const StageRecords& stages() const { return stages_; }
 
   /// Decimates until the edges exceed the edge length, and lets the rest of the piece go, boundary() included; shared
   /// points (ids of the input, ascending) and the edges between them that are on the boundary stay. To be called once.
   void thinOut(const std::vector<Index>& shared);
-  const PieceLevel& level() const;
+  const PieceLevel& level() const { return told_; }
   /// Lets level() go, which is not needed to carry places.
-  void forgetLevel();
+  void forgetLevel() { told_ = {}; }
 
   /// Where places of level() lie on the piece, one each. Throws InvalidInput for a triangle out of range. To be called
   /// once: it uses the log up.
-  std::vector<CarriedPlace> carry(const std::vector<PiecePlace>& places);
+  std::vector<CarriedPlace> carry(const std::vector<SurfacePoint>& places);
 
   /// Bytes held now.
   std::size_t bytes() const;
 
 private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  /// The normal beside a boundary edge between shared points.
+  struct BorderNormal
+  {
+    std::array<Index, 2> ends; ///< vertices of the mesh
+    Vector3 normal;
+
+    bool operator<(const BorderNormal& other) const { return ends < other.ends; }
+  };
+
+  Hierarchy decimate(const std::vector<Index>& shared) const;
+  bool isShared(Index v, const std::vector<Index>& shared) const;
+  /// Of shared points, all of which the level has.
+  std::vector<Vector3> placesOf(const std::vector<Index>& shared, const Level& level) const;
+  /// Returns whether the surface has changed.
+  bool closeHandles(const Level& level, const std::vector<Index>& shared);
+  void letGo();
+  /// Ascending by their ends.
+  std::vector<BorderNormal> borderNormals(const std::vector<Index>& shared) const;
+  void tellBorder(const std::vector<BorderNormal>& border);
+  void findInputPoints();
+  void findBoundary();
+  void tellLevel(const std::vector<Index>& shared);
+
+  PieceOptions options_;
+  PreparedSurface surface_;
+  std::vector<Index> inputPoint_; ///< #V
+  std::vector<Index> boundary_;
+  Level level_;
+  DecimationLog log_;
+  PieceLevel told_;
+  HandlesOfPiece handles_;
+  StageRecords stages_;
 };
 
 /// Thinned pieces as one surface.

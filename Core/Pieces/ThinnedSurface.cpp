@@ -132,7 +132,7 @@ ThinnedSurface::Places ThinnedSurface::carry(const QuadMesh& quads, const Prepar
   made.ofPoints.resize(quads.points.size());
   made.ofQuads.resize(quads.quads.size());
   const PlacesOfQuads found = placesOfQuads(mapped, quads, source);
-  const std::vector<FacePlace> onFine =
+  const std::vector<SurfacePoint> onFine =
     carryPlaces(level_, log_, log_.rounds.size(), found.places, threads, progress);
   log_ = {};
   for (std::size_t i = 0; i < onFine.size(); ++i)

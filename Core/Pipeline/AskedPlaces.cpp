@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/DetailSteps.h"
 
+#include "Base/Lists.h"
 #include "Requests/Guides.h"
 
 #include <algorithm>
@@ -42,9 +43,7 @@ void moveRequests(
   {
     requests[i].vertex = vertexAt.at(places[i]);
   }
-  requests.erase(std::remove_if(requests.begin(), requests.end(),
-                   [](const Request& request) { return request.vertex == kInvalidIndex; }),
-    requests.end());
+  eraseIf(requests, [](const Request& request) { return request.vertex == kInvalidIndex; });
   sortByVertex(requests);
 }
 

@@ -5,10 +5,12 @@
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/TryCount.h"
+#include "Evaluation/ConstraintMeasures.h"
+#include "Evaluation/LinesInQuads.h"
 #include "Mesh/Distance.h"
 #include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/Notices.h"
-#include "Pipeline/StageRecords.h"
+#include "Quads/QuadSmoothing.h"
 #include "Requests/CurveRequests.h"
 
 #include <algorithm>
@@ -22,10 +24,6 @@ namespace quadrille
 namespace
 {
 
-/// In edge lengths: how far from the end of a connection the irregular vertex may be that it joins.
-constexpr double kReachOfIrregular = 3;
-/// The same by which smoothing moves an irregular vertex, at most.
-constexpr double kSmoothedAway = 2;
 /// Progress of the run with other irregular vertices free.
 const std::string kSecondText =
   "Attempt 2 of at most 2, others free (connections that are not met)";
@@ -33,11 +31,7 @@ const std::string kSecondText =
 /// Points inside, off features.
 std::vector<Index> irregularInside(const QuadMesh& quads)
 {
-  std::vector<std::uint8_t> isOnCurve = quads.onBoundary;
-  for (const QuadLine& line : quads.lines)
-  {
-    isOnCurve[line.a] = isOnCurve[line.b] = 1;
-  }
+  const std::vector<std::uint8_t> isOnCurve = pointsOnCurves(quads);
   return idsWhere(quads.points.size(),
     [&](Index p)
     {
@@ -75,7 +69,7 @@ struct End
 std::optional<End> endAt(const QuadMesh& quads, double edgeLength, const Vector3& place)
 {
   std::optional<End> end;
-  double least = kReachOfIrregular * edgeLength;
+  double least = kReachOfEnds * edgeLength;
   for (const Index p : irregularInside(quads))
   {
     const double distance = (quads.points[p] - place).norm();
@@ -98,23 +92,6 @@ std::optional<End> endAt(const QuadMesh& quads, double edgeLength, const Vector3
   return end;
 }
 
-/// Of the places with this valence the nearest one to p, at most so far away; null: none.
-const ValencePlace* nearestOf(
-  const std::vector<ValencePlace>& valences, int valence, const Vector3& p, double within)
-{
-  const ValencePlace* nearest = nullptr;
-  for (const ValencePlace& asked : valences)
-  {
-    const double distance = (asked.place - p).norm();
-    if (asked.valence == valence && distance <= within)
-    {
-      within = distance;
-      nearest = &asked;
-    }
-  }
-  return nearest;
-}
-
 /// Valences that are asked for at places and points, but for those that may drift.
 std::vector<ValencePlace> fixedValences(const SurfaceInput& input)
 {
@@ -135,7 +112,7 @@ std::vector<ValencePlace> fixedValences(const SurfaceInput& input)
 void leadTo(const Vector3& point, int valence, double edgeLength, SurfaceInput& input, Vector3& end)
 {
   const std::vector<ValencePlace> fixed = fixedValences(input);
-  if (const ValencePlace* asked = nearestOf(fixed, valence, point, kAsAsked * edgeLength))
+  if (const ValencePlace* asked = nearestOf(fixed, valence, point, kMetDistance * edgeLength))
   {
     end = asked->place;
     return;
@@ -143,7 +120,8 @@ void leadTo(const Vector3& point, int valence, double edgeLength, SurfaceInput& 
   std::vector<ValencePlace>& valences = input.drawn.valences;
   const std::vector<ValencePlace> drifting =
     elementsWhere(valences, [](const ValencePlace& asked) { return asked.mayDrift; });
-  if (const ValencePlace* kept = nearestOf(drifting, valence, point, kSmoothedAway * edgeLength))
+  if (const ValencePlace* kept =
+        nearestOf(drifting, valence, point, kReachOfSmoothing * edgeLength))
   {
     valences.erase(std::find(valences.begin(), valences.end(), *kept));
   }
@@ -194,11 +172,7 @@ bool ConnectionEnds::findIn(RemeshResult& without)
   isMissing_ = false;
   if (!without.stopped.empty())
   {
-    // Quads without the connections are none that were asked for.
-    const RunEstimate estimated = without.estimate;
-    without = {};
-    without.estimate = estimated;
-    without.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    without.becomeStopped(); // its quads are none that were asked for
   }
   if (!without.status.ok())
   {
@@ -237,7 +211,7 @@ void ConnectionEnds::join(CurveRequest& connection, const RemeshResult& without,
     if (!ends[i])
     {
       whyNot = "no irregular vertex, feature or boundary lies within " +
-        std::to_string(static_cast<int>(kReachOfIrregular)) + " quads of " + placeText(*places[i]) +
+        std::to_string(static_cast<int>(kReachOfEnds)) + " quads of " + placeText(*places[i]) +
         ": draw to one, or ask for a valence there";
       return;
     }
@@ -275,7 +249,7 @@ void ConnectionEnds::hold(const RemeshResult& without, const std::set<Index>& jo
     const Vector3& place = without.quads.points[p];
     const int valence = without.quads.valence[p];
     const bool isAsked = joined.count(p) != 0 ||
-      nearestOf(fixed, valence, place, kAsAsked * without.targetEdgeLength) != nullptr;
+      nearestOf(fixed, valence, place, kMetDistance * without.targetEdgeLength) != nullptr;
     if (!isAsked && isOfMap[p] != 0)
     {
       held_.push_back({ place, valence, true });
@@ -285,8 +259,7 @@ void ConnectionEnds::hold(const RemeshResult& without, const std::set<Index>& jo
 
 bool ConnectionEnds::mayFreeOthers(const RemeshResult& made) const
 {
-  const bool isOver = !made.stopped.empty() || made.status.code == StatusCode::Cancelled ||
-    made.status.code == StatusCode::TooLarge;
+  const bool isOver = made.wasStopped() || made.status.code == StatusCode::TooLarge;
   return !held_.empty() && !isOver && (!made.status.ok() || countMet(made) < made.curves.size());
 }
 
@@ -308,8 +281,7 @@ bool ConnectionEnds::isBetter(RemeshResult& free, RemeshResult& held)
   made.attempts = std::move(attempts);
   ++taken_.tries.taken[static_cast<std::size_t>(Try::OthersFree)];
   made.tries.led[static_cast<std::size_t>(Try::OthersFree)] += isBetter ? 1 : 0;
-  const bool wasStopped = free.status.code == StatusCode::Cancelled || !free.stopped.empty();
-  if (!isBetter && wasStopped && held.status.ok())
+  if (!isBetter && free.wasStopped() && held.status.ok())
   {
     held.stopped = kSecondText;
     held.notices.push_back(stoppedText(held.stopped));
@@ -319,10 +291,7 @@ bool ConnectionEnds::isBetter(RemeshResult& free, RemeshResult& held)
 
 void ConnectionEnds::take(const RemeshResult& made)
 {
-  StageRecords stages;
-  stages.add(taken_.stages);
-  stages.add(made.stages);
-  taken_.stages = stages.all();
+  stages_.add(made.stages);
   taken_.tries.addTaken(made.tries);
   taken_.work += made.work;
   taken_.decimations += made.decimations;
@@ -331,16 +300,10 @@ void ConnectionEnds::take(const RemeshResult& made)
 
 void ConnectionEnds::tell(RemeshResult& result) const
 {
-  StageRecords stages;
-  stages.add(taken_.stages);
+  eraseIf(result.reused, [this](const std::string& stage) { return stages_.has(stage); });
+  StageRecords stages = stages_;
   stages.add(result.stages);
   result.stages = stages.all();
-  eraseIf(result.reused,
-    [&](const std::string& stage)
-    {
-      return std::any_of(taken_.stages.begin(), taken_.stages.end(),
-        [&](const StageRecord& record) { return record.stage == stage; });
-    });
   result.tries.addTaken(taken_.tries);
   result.work += taken_.work;
   result.decimations += taken_.decimations;

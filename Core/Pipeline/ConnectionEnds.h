@@ -56,7 +56,8 @@ private:
   bool isMissing_ = false;
   std::vector<std::string> whyNot_; ///< of each curve
   std::vector<ValencePlace> held_;
-  RemeshResult taken_; ///< by runs whose quads do not count
+  RemeshResult taken_;  ///< by runs whose quads do not count
+  StageRecords stages_; ///< of these
 };
 
 /// A run, after others where connections need them. run(SurfaceInput, options): returns what has a RemeshResult, which

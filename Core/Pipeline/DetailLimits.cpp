@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/DetailSteps.h"
 
+#include "Base/Lists.h"
 #include "Details/SmallComponents.h"
 #include "Pipeline/FirstPlan.h"
 
@@ -68,9 +69,7 @@ std::vector<HandleLoop> shortBoundaryLoops(
     {
       isSmall[surface.mesh.origin[h]] |= small.isSmall[Mesh::face(h)];
     }
-    const auto isOfSmall = [&](const HandleLoop& loop)
-    { return isSmall[loop.vertices.front()] != 0; };
-    loops.erase(std::remove_if(loops.begin(), loops.end(), isOfSmall), loops.end());
+    eraseIf(loops, [&](const HandleLoop& loop) { return isSmall[loop.vertices.front()] != 0; });
   }
   return loops;
 }

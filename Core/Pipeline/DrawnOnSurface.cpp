@@ -4,6 +4,7 @@
 
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
+#include "Evaluation/ConstraintMeasures.h"
 #include "Features/FeatureFilter.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Distance.h"
@@ -23,8 +24,6 @@ namespace
 
 /// Edge lengths between a place and the feature curve that it clears, at most.
 constexpr double kNearCleared = 0.5;
-/// The same to curves that go with one that is cleared: nearer ones would be taken for it, see kMetDistance.
-constexpr double kBesideCleared = 0.3;
 
 /// Orders of sizes of points, at the vertices that they became.
 std::vector<int> sizingOrdersOf(const std::vector<int>& orders, const PreparedSurface& surface)
@@ -137,8 +136,9 @@ void clearDrawn(PreparedSurface& surface, const std::vector<Vector3>& places, do
   {
     return;
   }
+  // Curves beside one that is cleared would be taken for it where they are as near as what is met.
   const std::vector<ClearedFeature> cleared =
-    clearFeatures(surface.mesh, places, kNearCleared * edgeLength, kBesideCleared * edgeLength);
+    clearFeatures(surface.mesh, places, kNearCleared * edgeLength, kMetDistance * edgeLength);
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const ClearedFeature& found = cleared[i];
@@ -213,13 +213,29 @@ std::vector<ValencePlace> withEnds(
         eraseIf(valences,
           [&](const ValencePlace& asked) {
             return asked.valence == valence &&
-              (asked.place - place).norm() <= kAsAsked * edgeLength;
+              (asked.place - place).norm() <= kMetDistance * edgeLength;
           });
         valences.push_back({ place, valence });
       }
     }
   }
   return valences;
+}
+
+const ValencePlace* nearestOf(
+  const std::vector<ValencePlace>& valences, int valence, const Vector3& p, double within)
+{
+  const ValencePlace* nearest = nullptr;
+  for (const ValencePlace& asked : valences)
+  {
+    const double distance = (asked.place - p).norm();
+    if (asked.valence == valence &&
+      (nearest == nullptr ? distance <= within : distance < (nearest->place - p).norm()))
+    {
+      nearest = &asked;
+    }
+  }
+  return nearest;
 }
 
 bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,

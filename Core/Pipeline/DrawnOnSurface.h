@@ -31,12 +31,13 @@ constexpr double kReachOfCurve = 1.5;
 void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& drawn,
   double edgeLength, int threads, std::vector<std::string>& notices);
 
-/// Edge lengths within which a vertex lies where it was asked for: places take a vertex of fine triangles.
-constexpr double kAsAsked = 0.3;
-
 /// Valences that are asked for, and those at the ends of connections; of the same valence at the same place one.
 std::vector<ValencePlace> withEnds(
   std::vector<ValencePlace> valences, const std::vector<CurveRequest>& curves, double edgeLength);
+
+/// Of the places with this valence the nearest one to p, at most so far away; null: none.
+const ValencePlace* nearestOf(
+  const std::vector<ValencePlace>& valences, int valence, const Vector3& p, double within);
 
 /// Valences at places, on the triangles as they are to stay. Whether vertices were added to these.
 bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,

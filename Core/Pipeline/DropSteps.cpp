@@ -66,12 +66,7 @@ std::vector<Index> jaggedFeatures(const Mesh& mesh, double edgeLength, double sm
 /// Held vertices without a feature or a boundary are held no more.
 void letVerticesGo(PreparedSurface& surface)
 {
-  const Mesh& mesh = surface.mesh;
-  std::vector<std::uint8_t> isOnCurve(mesh.vertexCount(), 0);
-  for (const Index h : constrainedEdges(mesh))
-  {
-    isOnCurve[mesh.origin[h]] = isOnCurve[mesh.target(h)] = 1;
-  }
+  const std::vector<std::uint8_t> isOnCurve = constrainedVertices(surface.mesh);
   eraseIf(surface.sectorRequests,
     [&](const SectorRequest& request) { return isOnCurve[request.vertex] == 0; });
 }

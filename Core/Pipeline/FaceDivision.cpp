@@ -36,8 +36,6 @@ namespace quadrille
 namespace
 {
 
-/// Points of the quads on the boundary lie on that of the faces, up to rounding; in edge lengths.
-constexpr double kSameBoundary = 1e-6;
 /// Quads get so many strips at most.
 constexpr std::size_t kMostStrips = 100;
 
@@ -164,9 +162,8 @@ private:
     }
     if (best)
     {
-      constexpr double rounding = 1e-9;
       const double t = segments_->on(*best, place).weights[1];
-      places.push_back({ halfEdges_[*best], t < rounding ? 0 : 1 - t < rounding ? 1 : t });
+      places.push_back({ halfEdges_[*best], t < kRounding ? 0 : 1 - t < kRounding ? 1 : t });
     }
   }
 
@@ -295,7 +292,7 @@ private:
     for (const auto& [p, beside] : neighbours)
     {
       const std::vector<CurvePoint> places =
-        boundary_->at(*restQuads_, p, kSameBoundary * edgeLength_);
+        boundary_->at(*restQuads_, p, kRoundingOfSingle * edgeLength_);
       if (!places.empty())
       {
         onShared.emplace(p, places);
@@ -519,7 +516,7 @@ bool addFacesAt(const std::vector<Vector3>& places, const SizedSurface& whole, F
   const NearestTriangle triangles(trianglesOf(mesh));
   for (const Vector3& place : places)
   {
-    for (const Index f : triangles.within(place, kSameBoundary * whole.edgeLength))
+    for (const Index f : triangles.within(place, kRoundingOfSingle * whole.edgeLength))
     {
       if (isFailed[labels[f]] == 0)
       {
@@ -630,7 +627,7 @@ CutFaces cutFaces(const SizedSurface& whole, const FailedFaces& failed, int thre
   std::vector<ComponentPart> parts = splitSurface(opened, partOfFace, hasRest ? 2 : 1, threads);
   if (hasRest)
   {
-    divideCurves(*whole.surface, isOutFace, kSameBoundary * whole.edgeLength, parts);
+    divideCurves(*whole.surface, isOutFace, kRoundingOfSingle * whole.edgeLength, parts);
   }
   cut.faces = std::move(parts[0].surface);
   cut.curves = std::move(parts[0].curves);

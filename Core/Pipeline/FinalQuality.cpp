@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Base/TryCount.h"
 #include "Extraction/Extraction.h"
+#include "Pipeline/Attempt.h"
 #include "Quads/QuadShape.h"
 #include "Requests/Guides.h"
 #include "Transfer/PatchMender.h"
@@ -106,12 +107,7 @@ void fixNear(const Mesh& mesh, const std::vector<Vector3>& places, double radius
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     pollNowAndThen(v, kLongSteps);
-    const auto isNear = [&](const Vector3& p)
-    { return (mesh.position[v] - p).squaredNorm() < radius * radius; };
-    if (fixed[v] == 0 && std::any_of(places.begin(), places.end(), isNear))
-    {
-      fixed[v] = 1;
-    }
+    fixed[v] = fixed[v] != 0 || isNear(mesh.position[v], places, radius) ? 1 : 0;
   }
 }
 

@@ -3,10 +3,14 @@
 #include "Pipeline/GuidedMap.h"
 
 #include "Base/Progress.h"
+#include "GridMap/MapCheck.h"
 #include "GridMap/RelaxMap.h"
+#include "Mesh/BreadthFirst.h"
 #include "Mesh/FaceSpread.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
+
+#include <algorithm>
 
 namespace quadrille
 {
@@ -20,25 +24,13 @@ constexpr int kRingsRoundRegions = 8;
 std::vector<std::uint8_t> farFromGuides(const Level& level)
 {
   const Mesh& mesh = level.mesh;
-  std::vector<std::uint8_t> far(mesh.vertexCount(), 1);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (!level.guides[Mesh::face(h)].isFree())
-    {
-      far[mesh.origin[h]] = 0;
-    }
-  }
-  for (int ring = 0; ring < kRingsRoundRegions; ++ring)
-  {
-    const std::vector<std::uint8_t> before = far;
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-    {
-      if (before[mesh.origin[h]] == 0)
-      {
-        far[mesh.target(h)] = far[mesh.origin[Mesh::previous(h)]] = 0;
-      }
-    }
-  }
+  const std::vector<int> ring = ringsFrom(mesh,
+    cornerVertices(
+      mesh, idsWhere(mesh.faceCount(), [&](Index f) { return !level.guides[f].isFree(); })),
+    kRingsRoundRegions);
+  std::vector<std::uint8_t> far(ring.size());
+  std::transform(ring.begin(), ring.end(), far.begin(),
+    [](int r) { return static_cast<std::uint8_t>(r > kRingsRoundRegions ? 1 : 0); });
   return far;
 }
 

@@ -41,23 +41,6 @@ void appendNew(const std::vector<std::string>& part, std::vector<std::string>& a
   }
 }
 
-void addStages(const std::vector<StageRecord>& part, std::vector<StageRecord>& all)
-{
-  for (const StageRecord& record : part)
-  {
-    const auto found = std::find_if(all.begin(), all.end(),
-      [&](const StageRecord& other) { return other.stage == record.stage; });
-    if (found == all.end())
-    {
-      all.push_back(record);
-      continue;
-    }
-    found->seconds += record.seconds;
-    found->elementsIn += record.elementsIn;
-    found->elementsOut += record.elementsOut;
-  }
-}
-
 void addCertificate(const Certificate& part, Index faces, Certificate& all)
 {
   all.minimumDeterminant = all.triangles == 0
@@ -218,7 +201,7 @@ void addSmallParts(const SmallParts& part, SmallParts& all)
 
 void addLog(const RemeshResult& part, RemeshResult& all)
 {
-  addStages(part.stages, all.stages);
+  addPart(part.stages, all.stages);
   appendNew(part.reused, all.reused);
   append(all.attempts, part.attempts);
   all.tries.add(part.tries);
@@ -305,21 +288,12 @@ void JoinedRuns::addFilled(const CutFaces& cut, FilledPart filled)
   {
     stands[p] = one;
   }
-  std::vector<Index> newId(stands.size(), kInvalidIndex);
-  Index kept = 0;
+  std::vector<std::uint8_t> isKept(stands.size(), 0);
   for (Index p = 0; p < stands.size(); ++p)
   {
-    if (stands[p] == p)
-    {
-      all.points[kept] = all.points[p];
-      all.sourceFace[kept] = all.sourceFace[p];
-      all.sourceWeights[kept] = all.sourceWeights[p];
-      newId[p] = kept++;
-    }
+    isKept[p] = stands[p] == p ? 1 : 0;
   }
-  all.points.resize(kept);
-  all.sourceFace.resize(kept);
-  all.sourceWeights.resize(kept);
+  const std::vector<Index> newId = keepPoints(all, isKept);
   for (std::array<Index, 4>& quad : all.quads)
   {
     for (Index& p : quad)

@@ -4,7 +4,7 @@
 #include "Pipeline/Strategies.h"
 
 #include "Base/Lists.h"
-#include "Mesh/Mesh.h"
+#include "Mesh/BreadthFirst.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,30 +30,23 @@ void keepAlso(const std::vector<Index>& vertices, Plan& plan)
 std::vector<Index> ringsRound(
   const Level& level, const std::vector<Index>& vertices, std::size_t vertexCount)
 {
-  std::vector<std::uint8_t> near(vertexCount, 0);
+  std::vector<std::uint8_t> isStart(vertexCount, 0);
   for (const Index v : vertices)
   {
-    near[v] = 1;
+    isStart[v] = 1;
   }
-  for (int ring = 0; ring < kFreedomRings; ++ring)
+  const std::vector<Index>& onLevel = level.fineVertex;
+  const std::vector<int> ring = ringsFrom(level.mesh,
+    idsWhere(onLevel.size(), [&](Index i) { return isStart[onLevel[i]] != 0; }), kFreedomRings);
+  std::vector<Index> near;
+  for (std::size_t i = 0; i < onLevel.size(); ++i)
   {
-    std::vector<Index> added;
-    for (Index h = 0; h < level.mesh.halfEdgeCount(); ++h)
+    if (ring[i] <= kFreedomRings)
     {
-      pollNowAndThen(h);
-      const Index from = level.fineVertex[level.mesh.origin[h]];
-      const Index to = level.fineVertex[level.mesh.target(h)];
-      if (near[from] != near[to])
-      {
-        added.push_back(near[from] ? to : from);
-      }
-    }
-    for (const Index v : added)
-    {
-      near[v] = 1;
+      near.push_back(onLevel[i]);
     }
   }
-  return elementsWhere(level.fineVertex, [&](Index v) { return near[v] != 0; });
+  return near;
 }
 
 } // namespace

@@ -72,6 +72,24 @@ struct RemeshResult
   std::size_t targetQuads = 0; ///< predicted from the edge length where none was asked
   std::vector<std::string>
     notices; ///< what the user should know: repairs, raised budgets, refinement
+
+  /// On request, with quads or without.
+  bool wasStopped() const { return status.code == StatusCode::Cancelled || !stopped.empty(); }
+  /// Whether it could succeed with other constraints: it has failed, and neither on request nor as it would be too
+  /// large.
+  bool failsAsAsked() const
+  {
+    return !status.ok() && status.code != StatusCode::Cancelled &&
+      status.code != StatusCode::TooLarge;
+  }
+  /// What a run is that was stopped before it had the quads that were asked for; the estimate stays.
+  void becomeStopped()
+  {
+    const RunEstimate estimated = estimate;
+    *this = {};
+    estimate = estimated;
+    status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+  }
 };
 
 /// Runs everything, in coordinates of its own (see Prepare/Frame.h): of a surface that is shifted, scaled or mirrored

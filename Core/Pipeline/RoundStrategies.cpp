@@ -34,11 +34,7 @@ constexpr const char* kDoNotFit =
 /// These do not show in the plan any more.
 void forget(std::initializer_list<Try> steps, Plan& plan)
 {
-  std::vector<Try>& made = plan.made;
-  made.erase(
-    std::remove_if(made.begin(), made.end(),
-      [&](Try step) { return std::find(steps.begin(), steps.end(), step) != steps.end(); }),
-    made.end());
+  eraseIf(plan.made, [&](Try step) { return contains(steps, step); });
 }
 
 std::string nearText(const std::vector<Vector3>& places)

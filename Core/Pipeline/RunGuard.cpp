@@ -82,10 +82,7 @@ RemeshResult guardedRun(
   catch (const Cancelled&)
   {
     // What was under work is in the run's own coordinates, or half made.
-    const RunEstimate estimated = result.estimate;
-    result = {};
-    result.estimate = estimated;
-    result.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    result.becomeStopped();
   }
   result.tries.add(tries.counts());
   return result;

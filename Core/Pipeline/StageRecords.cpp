@@ -29,6 +29,23 @@ void StageRecords::add(const std::vector<StageRecord>& later)
   }
 }
 
+void addPart(const std::vector<StageRecord>& part, std::vector<StageRecord>& all)
+{
+  for (const StageRecord& record : part)
+  {
+    const auto found = std::find_if(all.begin(), all.end(),
+      [&](const StageRecord& other) { return other.stage == record.stage; });
+    if (found == all.end())
+    {
+      all.push_back(record);
+      continue;
+    }
+    found->seconds += record.seconds;
+    found->elementsIn += record.elementsIn;
+    found->elementsOut += record.elementsOut;
+  }
+}
+
 bool StageRecords::has(const std::string& stage) const
 {
   return std::any_of(records_.begin(), records_.end(),

@@ -38,6 +38,9 @@ private:
   std::vector<StageRecord> records_;
 };
 
+/// Stages of a part of a surface, to those of others: sizes are sums, too.
+void addPart(const std::vector<StageRecord>& part, std::vector<StageRecord>& all);
+
 /// Records of stages that follow each other.
 class StageLaps
 {

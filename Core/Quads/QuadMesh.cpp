@@ -49,6 +49,36 @@ std::optional<Index> meshCorner(const QuadMesh& quads, Index p)
   return std::nullopt;
 }
 
+std::vector<std::uint8_t> pointsOnCurves(const QuadMesh& mesh)
+{
+  std::vector<std::uint8_t> isOnCurve = mesh.onBoundary;
+  for (const QuadLine& line : mesh.lines)
+  {
+    isOnCurve[line.a] = isOnCurve[line.b] = 1;
+  }
+  return isOnCurve;
+}
+
+std::vector<Index> keepPoints(QuadMesh& mesh, const std::vector<std::uint8_t>& isKept)
+{
+  std::vector<Index> newId(isKept.size(), kInvalidIndex);
+  Index kept = 0;
+  for (Index p = 0; p < isKept.size(); ++p)
+  {
+    if (isKept[p] != 0)
+    {
+      mesh.points[kept] = mesh.points[p];
+      mesh.sourceFace[kept] = mesh.sourceFace[p];
+      mesh.sourceWeights[kept] = mesh.sourceWeights[p];
+      newId[p] = kept++;
+    }
+  }
+  mesh.points.resize(kept);
+  mesh.sourceFace.resize(kept);
+  mesh.sourceWeights.resize(kept);
+  return newId;
+}
+
 std::vector<std::uint8_t> featureEdgeBits(const QuadMesh& mesh)
 {
   const auto sortedEdge = [](Index a, Index b)

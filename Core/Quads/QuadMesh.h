@@ -68,6 +68,13 @@ inline Index oppositeInQuad(Index h)
 /// The corner of the mapped mesh that point p lies on exactly; none where it lies on an edge or in a face.
 std::optional<Index> meshCorner(const QuadMesh& quads, Index p);
 
+/// Flags of the points of features and on the boundary.
+std::vector<std::uint8_t> pointsOnCurves(const QuadMesh& mesh);
+
+/// Takes all other points away, and what is told of their sources; quads and lines are the caller's. Returns the points
+/// that those which stay become.
+std::vector<Index> keepPoints(QuadMesh& mesh, const std::vector<std::uint8_t>& isKept);
+
 /// Per quad, then per polygon: bit i, of eight, says whether its edge from corner i to i + 1 lies on a feature.
 std::vector<std::uint8_t> featureEdgeBits(const QuadMesh& mesh);
 

@@ -29,33 +29,6 @@ enum class PointFate : std::uint8_t
   Kept
 };
 
-/// Sums of the normals of the quads round each point.
-std::vector<Vector3> pointNormals(const std::vector<Vector3>& points, const QuadList& quads)
-{
-  std::vector<Vector3> normals(points.size(), Vector3::Zero());
-  for (const std::array<Index, 4>& quad : quads)
-  {
-    const Vector3 normal = centreNormal(cornersOf(points, quad));
-    for (const Index corner : quad)
-    {
-      normals[corner] += normal;
-    }
-  }
-  return normals;
-}
-
-TriangleList halvesOf(const std::vector<Vector3>& points, const QuadList& quads)
-{
-  TriangleList halves;
-  halves.points = points;
-  for (const std::array<Index, 4>& q : quads)
-  {
-    halves.corners.push_back({ q[0], q[1], q[2] });
-    halves.corners.push_back({ q[2], q[3], q[0] });
-  }
-  return halves;
-}
-
 Vector3 triangleNormal(const TriangleList& list, Index triangle)
 {
   const std::array<Index, 3>& c = list.corners[triangle];
@@ -142,6 +115,32 @@ QuadProjectionReport countFates(const std::vector<PointFate>& fates)
 }
 
 } // namespace
+
+std::vector<Vector3> pointNormals(const std::vector<Vector3>& points, const QuadList& quads)
+{
+  std::vector<Vector3> normals(points.size(), Vector3::Zero());
+  for (const std::array<Index, 4>& quad : quads)
+  {
+    const Vector3 normal = diagonalNormal(cornersOf(points, quad));
+    for (const Index corner : quad)
+    {
+      normals[corner] += normal;
+    }
+  }
+  return normals;
+}
+
+TriangleList halvesOf(const std::vector<Vector3>& points, const QuadList& quads)
+{
+  TriangleList halves;
+  halves.points = points;
+  for (const std::array<Index, 4>& quad : quads)
+  {
+    halves.corners.push_back({ quad[0], quad[1], quad[2] });
+    halves.corners.push_back({ quad[0], quad[2], quad[3] });
+  }
+  return halves;
+}
 
 QuadProjectionReport projectQuads(std::vector<Vector3>& points, const QuadList& quads,
   const NearestTriangle& surface, const QuadProjectionOptions& options)

@@ -31,6 +31,14 @@ struct QuadProjectionReport
   std::size_t kept = 0; ///< stay, as a quad would have become inverted
 };
 
+/// Sums of the normals of the quads round each point.
+std::vector<Vector3> pointNormals(
+  const std::vector<Vector3>& points, const std::vector<std::array<Index, 4>>& quads);
+
+/// Two triangles a quad.
+TriangleList halvesOf(
+  const std::vector<Vector3>& points, const std::vector<std::array<Index, 4>>& quads);
+
 /// Moves each point to the nearest place of the triangles, whose orientation does not count. No quad with a positive
 /// scaled Jacobian gets one that is not: its points stay, as do those of the quads that this makes inverted in turn.
 /// The result does not depend on the number of threads. Throws InvalidInput for options out of range.

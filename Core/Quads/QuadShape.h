@@ -21,6 +21,12 @@ inline Vector3 centreNormal(const std::array<Vector3, 4>& p)
   return (p[1] - p[0] + p[2] - p[3]).cross(p[2] - p[1] + p[3] - p[0]);
 }
 
+/// Of the diagonals, twice as long as the quad's area is large.
+inline Vector3 diagonalNormal(const std::array<Vector3, 4>& p)
+{
+  return (p[2] - p[0]).cross(p[3] - p[1]);
+}
+
 /// Scaled Jacobian as in the Verdict library: the smallest of the four normalized corner
 /// determinants with respect to the normal of the quad's centre. 1 for a rectangle, <= 0 where the
 /// quad is not convex; 0 for a vanishing edge or normal.

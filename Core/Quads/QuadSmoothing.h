@@ -11,6 +11,9 @@
 namespace quadrille
 {
 
+/// Edge lengths of the quads there by which an irregular vertex is moved away from where the map has it, at most.
+constexpr double kReachOfSmoothing = 2;
+
 struct SmoothingOptions
 {
   int steps = 5; ///< sweeps over all points, >= 0

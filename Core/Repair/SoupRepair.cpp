@@ -160,7 +160,7 @@ void tellBoundaries(const SurfaceMesh& mesh, SoupReport& report)
   report.openBoundaries = report.boundaries.size();
   std::stable_sort(report.boundaries.begin(), report.boundaries.end(),
     [](const SoupPlace& a, const SoupPlace& b) { return a.length > b.length; });
-  report.boundaries.resize(std::min(report.boundaries.size(), SoupReport::kMostPlacesTold));
+  report.boundaries.resize(std::min(report.boundaries.size(), kMostTold));
 }
 
 /// Faces of which no three corners lie on a line; CGAL's test of crossing needs that.
@@ -243,7 +243,7 @@ void tellIntersections(
   result.report.intersectionPlaces = places.size();
   std::stable_sort(places.begin(), places.end(),
     [](const SoupPlace& a, const SoupPlace& b) { return a.faces > b.faces; });
-  places.resize(std::min(places.size(), SoupReport::kMostPlacesTold));
+  places.resize(std::min(places.size(), kMostTold));
 }
 
 std::size_t countComponents(const SurfaceMesh& mesh)

@@ -4,6 +4,7 @@
 /// agree, holes filled, self-intersections found and told.
 #pragma once
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Repair/Soup.h"
 
@@ -56,11 +57,9 @@ struct SoupReport
   std::size_t intersectingPairs = 0;
   std::size_t intersectingFaces = 0;    ///< that take part
   std::size_t intersectionPlaces = 0;   ///< connected regions of such faces
-  std::vector<SoupPlace> intersections; ///< kMostPlacesTold at most, most faces first
+  std::vector<SoupPlace> intersections; ///< kMostTold at most, most faces first
   std::vector<SoupPlace>
     boundaries; ///< the same of boundary loops that are left, the longest first
-
-  static constexpr std::size_t kMostPlacesTold = 5;
 
   /// One sentence for each kind of finding, with counts and places.
   std::vector<std::string> sentences() const;

@@ -3,6 +3,7 @@
 #include "Requests/DrawnLines.h"
 
 #include "Mesh/Distance.h"
+#include "Requests/SurfacePlaces.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,31 +13,13 @@ namespace quadrille
 namespace
 {
 
-constexpr int kTurnsBesideLine = 2;
-/// Vertices of a line lie on its course but for rounding, over the course's diagonal.
-constexpr double kOnCourse = 1e-9;
-
-/// Calls visit(h) for the half-edges that leave the vertex of `first`, counterclockwise from it on. Returns whether
-/// they go all round it.
-template <typename Visitor>
-bool forFanOf(const Mesh& mesh, Index first, const Visitor& visit)
-{
-  Index h = first;
-  do
-  {
-    visit(h);
-    h = mesh.rotateCounterclockwise(h);
-  } while (h != kInvalidIndex && h != first);
-  return h == first;
-}
-
 /// Calls visit(half-edge, turns) for the sectors at the vertex that h, a flagged edge, leaves: those on each side of
 /// the line make two turns together, where so many have room.
 template <typename Visitor>
 void forSectorsBeside(const Mesh& mesh, const EdgesOfLine& line, Index h, const Visitor& visit)
 {
   std::vector<std::vector<Index>> sides;
-  const bool isWhole = forFanOf(mesh, h,
+  const bool isWhole = forEachFrom(mesh, h,
     [&](Index g)
     {
       if (line.edges[g] != 0)
@@ -53,10 +36,10 @@ void forSectorsBeside(const Mesh& mesh, const EdgesOfLine& line, Index h, const 
     return; // on a boundary
   }
   // One that crosses itself has four edges there, and a quarter of the turns between two of them.
-  const int most = sides.size() > 2 ? 1 : kTurnsBesideLine;
+  const int most = sides.size() > 2 ? 1 : kStraightTurns;
   for (const std::vector<Index>& side : sides)
   {
-    const int turns = std::min(most, kTurnsBesideLine / static_cast<int>(side.size()));
+    const int turns = std::min(most, kStraightTurns / static_cast<int>(side.size()));
     for (const Index sector : side)
     {
       if (turns > 0)
@@ -89,18 +72,6 @@ std::vector<Vector3> courseOf(const CurveRequest& line)
     course.push_back(line.points.front());
   }
   return course;
-}
-
-/// The diagonal of its box.
-double spanOf(const std::vector<Vector3>& course)
-{
-  Vector3 low = course.front(), high = low;
-  for (const Vector3& p : course)
-  {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).norm();
 }
 
 bool isOnCourse(const std::vector<Vector3>& course, const Vector3& p, double tolerance)
@@ -140,7 +111,7 @@ EdgesOfLine edgesOfLine(const Mesh& mesh, const CurveRequest& line)
   EdgesOfLine found{ std::vector<std::uint8_t>(mesh.halfEdgeCount(), 0),
     std::vector<std::uint8_t>(mesh.vertexCount(), 0) };
   const std::vector<Vector3> course = courseOf(line);
-  const double tolerance = kOnCourse * spanOf(course);
+  const double tolerance = kRounding * diagonalOf(course);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     const Vector3& p = mesh.position[mesh.origin[h]];

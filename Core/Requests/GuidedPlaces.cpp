@@ -160,9 +160,8 @@ private:
         return;
       }
       // What is nearer to another part of the course comes from there.
-      constexpr double kAtEnd = 1e-9;
-      const bool isEnd = (nearest.point - course_.front()).norm() <= kAtEnd * length_ ||
-        (nearest.point - course_.back()).norm() <= kAtEnd * length_;
+      const bool isEnd = (nearest.point - course_.front()).norm() <= kRounding * length_ ||
+        (nearest.point - course_.back()).norm() <= kRounding * length_;
       if (!isEnd && (nearest.point - begin).norm() > 2 * step_)
       {
         return;

@@ -7,7 +7,7 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
-#include "Mesh/Surface.h"
+#include "Mesh/AskedVertices.h"
 #include "Mesh/Topology.h"
 #include "Requests/CurveRequests.h"
 #include "Requests/SeamRequests.h"
@@ -342,12 +342,9 @@ std::vector<int> levelValences(
   }
   for (std::size_t i = 0; i < fineVertex.size(); ++i)
   {
-    const auto found =
-      std::lower_bound(surface.valenceRequests.begin(), surface.valenceRequests.end(),
-        fineVertex[i], [](const ValenceRequest& request, Index v) { return request.vertex < v; });
-    if (found != surface.valenceRequests.end() && found->vertex == fineVertex[i])
+    if (const ValenceRequest* asked = requestAt(surface.valenceRequests, fineVertex[i]))
     {
-      valences[i] = found->valence;
+      valences[i] = asked->valence;
     }
   }
   return valences;

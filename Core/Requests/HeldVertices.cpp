@@ -4,7 +4,7 @@
 
 #include "Base/Lists.h"
 #include "Base/Progress.h"
-#include "Mesh/Surface.h"
+#include "Mesh/AskedVertices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,6 @@ namespace quadrille
 {
 namespace
 {
-
-constexpr int kStraightTurns = 2;
 
 struct MeshSector
 {
@@ -257,11 +255,8 @@ std::vector<int> levelSectors(
     }
     const std::vector<MeshSector> there = sectorsFrom(level, first[v]);
     const bool onBoundary = level.isBoundary(first[v]);
-    const auto asked =
-      std::lower_bound(surface.sectorRequests.begin(), surface.sectorRequests.end(), fineVertex[v],
-        [](const SectorRequest& request, Index vertex) { return request.vertex < vertex; });
-    const bool isAsked = asked != surface.sectorRequests.end() && asked->vertex == fineVertex[v] &&
-      asked->sectors.size() == there.size();
+    const SectorRequest* asked = requestAt(surface.sectorRequests, fineVertex[v]);
+    const bool isAsked = asked != nullptr && asked->sectors.size() == there.size();
     const std::size_t by = isAsked ? bestRotation(there, asked->sectors, onBoundary) : 0;
     const bool passes = there.size() == (onBoundary ? 1 : 2);
     for (std::size_t i = 0; i < there.size() && (isAsked || passes); ++i)

@@ -180,7 +180,7 @@ private:
            ++k)
       {
         const double squared = mesh_.edgeVector(k).squaredNorm();
-        if (squared > most * (1 + 1e-9))
+        if (squared > most * (1 + kRounding))
         {
           most = squared;
           longest = k;
@@ -341,7 +341,7 @@ private:
       const Vector3 along = mesh_.edgeVector(edge);
       const double share =
         (point - mesh_.position[mesh_.origin[edge]]).dot(along) / along.squaredNorm();
-      return split(edge, std::clamp(share, kLeastShareOfEdge, 1 - kLeastShareOfEdge));
+      return split(edge, std::clamp(share, kRounding, 1 - kRounding));
     }
     const Index first = mesh_.faceCount();
     const Index v = splitFace(surface_, f, weightsIn(f, point));
@@ -427,8 +427,6 @@ private:
       }
     }
   }
-
-  static constexpr double kLeastShareOfEdge = 1e-9;
 
   PreparedSurface& surface_;
   Mesh& mesh_;

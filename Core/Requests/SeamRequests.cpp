@@ -13,14 +13,12 @@ namespace quadrille
 namespace
 {
 
-constexpr int kStraightSector = 2;
-
 /// Walks along the boundary of a mesh between places.
 class SeamFinder
 {
 public:
   SeamFinder(const Mesh& mesh, const std::vector<SeamRequest>& requests)
-    : mesh_(mesh), isEnd_(mesh.vertexCount(), 0), boundary_(mesh)
+    : isEnd_(mesh.vertexCount(), 0), boundary_(mesh)
   {
     for (const SeamRequest& request : requests)
     {
@@ -50,25 +48,11 @@ public:
   const std::vector<Index>& ends() const { return ends_; }
 
 private:
-  /// The boundary up to the next end; none where that is another one.
   std::vector<Index> walk(Index from, Index to) const
   {
-    std::vector<Index> edges;
-    Index v = from;
-    do
-    {
-      const Index h = v == kInvalidIndex ? kInvalidIndex : boundary_.outgoing(v);
-      if (h == kInvalidIndex)
-      {
-        return {};
-      }
-      edges.push_back(h);
-      v = mesh_.target(h);
-    } while (isEnd_[v] == 0);
-    return v == to ? edges : std::vector<Index>{};
+    return boundary_.walk(from, to, [this](Index v) { return isEnd_[v] != 0; });
   }
 
-  const Mesh& mesh_;
   std::vector<Index> ends_; ///< four a request
   std::vector<std::uint8_t> isEnd_;
   BoundaryPlaces boundary_;
@@ -99,7 +83,7 @@ std::vector<Index> seamVertices(const Mesh& mesh, const std::vector<SeamRequest>
   }
   std::vector<Index> vertices = SeamFinder(mesh, requests).ends();
   sortUnique(vertices);
-  vertices.erase(std::remove(vertices.begin(), vertices.end(), kInvalidIndex), vertices.end());
+  eraseIf(vertices, [](Index v) { return v == kInvalidIndex; });
   return vertices;
 }
 
@@ -125,7 +109,7 @@ std::vector<int> seamSectors(
       if (isFeature[mesh.origin[h]] == 0 && !single)
       {
         sectorTurns.resize(mesh.halfEdgeCount(), 0);
-        sectorTurns[h] = kStraightSector;
+        sectorTurns[h] = kStraightTurns;
       }
     }
   };

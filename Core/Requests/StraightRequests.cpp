@@ -15,8 +15,8 @@ namespace quadrille
 namespace
 {
 
-constexpr int kAlongStraightPart = 2;
-constexpr int kAtItsEnd = 1;
+/// At the end of a straight part.
+constexpr int kCornerTurns = 1;
 
 /// Walks along the boundary of a mesh between places.
 class StraightFinder
@@ -48,15 +48,7 @@ private:
   /// All round where both are the same.
   std::vector<Index> walk(Index from, Index to) const
   {
-    std::vector<Index> edges;
-    Index v = from;
-    do
-    {
-      const Index h = boundary_.outgoing(v);
-      edges.push_back(h);
-      v = mesh_.target(h);
-    } while (v != to && v != from);
-    return v == to ? edges : std::vector<Index>{};
+    return boundary_.walk(from, to, [&](Index v) { return v == to || v == from; });
   }
 
   double distance(const std::vector<Index>& edges, const Vector3& place) const
@@ -157,13 +149,14 @@ std::vector<int> straightSectors(
   const auto ask = [&](Index first, int turns)
   {
     std::vector<Index> sectors;
-    for (Index h = first; h != kInvalidIndex; h = mesh.rotateCounterclockwise(h))
-    {
-      if (mesh.isConstrained(h))
+    forEachFrom(mesh, first,
+      [&](Index h)
       {
-        sectors.push_back(h);
-      }
-    }
+        if (mesh.isConstrained(h))
+        {
+          sectors.push_back(h);
+        }
+      });
     if (static_cast<int>(sectors.size()) > turns)
     {
       return;
@@ -184,13 +177,13 @@ std::vector<int> straightSectors(
     const bool closed = mesh.origin[part.front()] == end;
     for (std::size_t i = 0; i < part.size(); ++i)
     {
-      ask(part[i], closed || i > 0 ? kAlongStraightPart : kAtItsEnd);
+      ask(part[i], closed || i > 0 ? kStraightTurns : kCornerTurns);
     }
     for (Index h = 0; h < mesh.halfEdgeCount() && !closed; ++h)
     {
       if (mesh.isBoundary(h) && mesh.origin[h] == end)
       {
-        ask(h, kAtItsEnd);
+        ask(h, kCornerTurns);
       }
     }
   }

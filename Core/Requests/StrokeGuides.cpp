@@ -67,9 +67,7 @@ TriangleList segmentsOf(const PathParts& parts)
   {
     if (part.from != part.to)
     {
-      const auto first = static_cast<Index>(list.points.size());
-      list.points.insert(list.points.end(), { part.from, part.to });
-      list.corners.push_back({ first, first + 1, first + 1 });
+      list.addSegment(part.from, part.to);
     }
   }
   return list;

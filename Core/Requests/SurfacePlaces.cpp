@@ -30,15 +30,15 @@ double meanEdge(const SurfaceInput& input, Index polygon)
   return sum / std::max<Index>(corners, 1);
 }
 
-double diagonalOf(const SurfaceInput& input)
+double diagonalOf(const std::vector<Vector3>& points)
 {
-  if (input.points.empty())
+  if (points.empty())
   {
     return 0;
   }
-  Vector3 low = input.points.front();
+  Vector3 low = points.front();
   Vector3 high = low;
-  for (const Vector3& p : input.points)
+  for (const Vector3& p : points)
   {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
@@ -99,7 +99,7 @@ void requirePolygons(const SurfaceInput& input)
 }
 
 SurfacePlaces::SurfacePlaces(const SurfaceInput& input, int threads)
-  : input_(input), threads_(threads), diagonal_(diagonalOf(input))
+  : input_(input), threads_(threads), diagonal_(diagonalOf(input.points))
 {
   requirePolygons(input);
 }
@@ -214,14 +214,13 @@ SurfacePlaces::Place SurfacePlaces::nearestPlace(const Vector3& p) const
 
 bool SurfacePlaces::isOnBoundary(const Place& place) const
 {
-  constexpr double kOnBoundaryEdge = 1e-6; // of the polygon's mean edge
   struct Edge
   {
     Vector3 a, b;
     int polygons = 0;
   };
   std::vector<Edge> edges; // at the place
-  const double near = kOnBoundaryEdge * meanEdge(input_, place.polygon);
+  const double near = kRoundingOfSingle * meanEdge(input_, place.polygon);
   for (std::size_t polygon = 0; polygon + 1 < input_.polygonOffsets.size(); ++polygon)
   {
     const Index begin = input_.polygonOffsets[polygon];

@@ -17,7 +17,7 @@ namespace quadrille
 double meanEdge(const SurfaceInput& input, Index polygon);
 
 /// The diagonal of the box round all points.
-double diagonalOf(const SurfaceInput& input);
+double diagonalOf(const std::vector<Vector3>& points);
 
 /// The sum over all polygons, whatever their corners are in.
 double areaOfPolygons(const SurfaceInput& input);

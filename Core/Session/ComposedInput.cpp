@@ -342,13 +342,12 @@ private:
     composed_.shown = list_.shown();
     composed_.irregular = list_.irregular();
     std::vector<IrregularVertex>& all = composed_.irregular;
-    all.erase(std::remove_if(all.begin(), all.end(),
-                [this](const IrregularVertex& vertex)
-                {
-                  const Asked* asked = askedAt(vertex.place);
-                  return asked != nullptr && asked->valence != vertex.valence;
-                }),
-      all.end());
+    eraseIf(all,
+      [this](const IrregularVertex& vertex)
+      {
+        const Asked* asked = askedAt(vertex.place);
+        return asked != nullptr && asked->valence != vertex.valence;
+      });
     for (const Asked& asked : asked_)
     {
       if (asked.valence != kRegularValence && valenceInList(asked) != asked.valence)

@@ -5,6 +5,7 @@
 #include "Base/PlaceText.h"
 #include "Evaluation/ConstraintMeasures.h"
 #include "Mesh/NearestTriangle.h"
+#include "Quads/QuadSmoothing.h"
 #include "Session/IrregularMatch.h"
 
 #include <algorithm>
@@ -19,9 +20,6 @@ namespace quadrille
 namespace
 {
 
-/// Edge lengths of the quads there within which other irregular points may move.
-constexpr double kReachOfOperation = 2;
-
 /// Places at most at which it is looked whether a later constraint counts.
 constexpr std::size_t kPlacesOfOthers = 400;
 
@@ -35,9 +33,7 @@ TriangleList trianglesOf(const FixedPlaces& fixed)
   TriangleList list;
   for (const std::array<Vector3, 3>& triangle : fixed.withoutMap)
   {
-    const auto first = static_cast<Index>(list.points.size());
-    list.points.insert(list.points.end(), triangle.begin(), triangle.end());
-    list.corners.push_back({ first, first + 1, first + 2 });
+    list.add(triangle[0], triangle[1], triangle[2]);
   }
   return list;
 }
@@ -126,7 +122,7 @@ private:
     return withoutMap_ && withoutMap_->at(place, Vector3::Zero(), onWithoutMap_);
   }
   /// Within which an irregular point is where it was.
-  double reachAt(const Vector3& place) { return kReachOfOperation * measures_.edgeLengthAt(place); }
+  double reachAt(const Vector3& place) { return kReachOfSmoothing * measures_.edgeLengthAt(place); }
 
   ConstraintMeasure measureOf(const SessionConstraint& constraint)
   {

@@ -172,21 +172,14 @@ private:
   static UncutResult stopped()
   {
     UncutResult none;
-    none.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    none.remeshed.becomeStopped();
     return none;
-  }
-
-  static bool failsAltogether(const UncutResult& made)
-  {
-    const Status& status = made.remeshed.status;
-    return !status.ok() && status.code != StatusCode::Cancelled &&
-      status.code != StatusCode::TooLarge;
   }
 
   /// Altogether, or in more components than without what was drawn.
   bool fails(const UncutResult& made) const
   {
-    return failsAltogether(made) || made.remeshed.failed.components > withoutQuads_;
+    return made.remeshed.failsAsAsked() || made.remeshed.failed.components > withoutQuads_;
   }
 
   /// Whether it fails altogether without the rest; else it is known then how many components do.
@@ -209,7 +202,7 @@ private:
     {
       known_.store->put(key, std::make_shared<std::size_t>(withoutQuads_), sizeof(std::size_t));
     }
-    return failsAltogether(without);
+    return without.remeshed.failsAsAsked();
   }
 
   /// The first `count` of the rest.
@@ -235,22 +228,20 @@ private:
     UncutResult made = asksForMoves(made_)
       ? remeshWithMoves(input, options_, run_, known_, made_, notices_)
       : run_(std::move(input), options_);
-    wasStopped_ =
-      made.remeshed.status.code == StatusCode::Cancelled || !made.remeshed.stopped.empty();
+    wasStopped_ = made.remeshed.wasStopped();
     return made;
   }
 
   /// r: in the rest.
   void leaveOut(std::size_t r)
   {
-    std::vector<std::string> before;
-    std::transform(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(r),
-      std::back_inserter(before), [this](std::size_t i) { return nameOfPlaced(placed_[i]); });
     const UncutResult with = runWithout(withFirst(r + 1));
     isLeftOut_[rest_[r]] = true;
     const std::string lost = with.remeshed.failed.lostText(withoutQuads_);
-    whyNot_.emplace_back(
-      rest_[r], cannotBeMet(before, lost.empty() ? with.remeshed.status.message : lost));
+    whyNot_.emplace_back(rest_[r],
+      cannotBeMet(
+        r, [this](std::size_t i) { return nameOfPlaced(placed_[rest_[i]]); },
+        lost.empty() ? with.remeshed.status.message : lost));
     rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(r));
   }
 
@@ -270,16 +261,6 @@ private:
 };
 
 } // namespace
-
-std::string cannotBeMet(const std::vector<std::string>& before, const std::string& reason)
-{
-  std::string others;
-  for (const std::string& name : before)
-  {
-    others += (others.empty() ? " together with " : ", ") + name;
-  }
-  return "it cannot be met" + others + ": " + reason;
-}
 
 SurfaceInput withoutDrawn(const SurfaceInput& input, const std::vector<bool>& isLeftOut,
   std::vector<PlacedConstraint>& placed)

@@ -29,8 +29,18 @@ std::optional<std::size_t> lastOfShortestFailing(std::size_t count, const Fails&
   return std::nullopt;
 }
 
-/// Why a constraint is left out. before: names of those before it; reason: of the run with them and it.
-std::string cannotBeMet(const std::vector<std::string>& before, const std::string& reason);
+/// Why a constraint is left out. before: how many are before it, whose names nameOf(i) gives; reason: of the run with
+/// them and it.
+template <typename NameOf>
+std::string cannotBeMet(std::size_t before, const NameOf& nameOf, const std::string& reason)
+{
+  std::string others;
+  for (std::size_t i = 0; i < before; ++i)
+  {
+    others += (i == 0 ? " together with " : ", ") + nameOf(i);
+  }
+  return "it cannot be met" + others + ": " + reason;
+}
 
 /// The input without what these ask for. isLeftOut: of each placed one. placed: of the others the curve becomes its
 /// place in the result.

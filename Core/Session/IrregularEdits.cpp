@@ -9,6 +9,7 @@
 #include "Base/Refuse.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Topology.h"
+#include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/FaceDivision.h"
 
 #include <algorithm>
@@ -317,10 +318,9 @@ OnCurves findOnCurves(const MadeSurface& made, int threads)
 {
   const Mesh& mesh = made.surface.mesh;
   OnCurves on;
-  on.vertices.assign(mesh.vertexCount(), 0);
+  on.vertices = constrainedVertices(mesh);
   for (const Index h : constrainedEdges(mesh, threads))
   {
-    on.vertices[mesh.origin[h]] = on.vertices[mesh.target(h)] = 1;
     on.edges.push_back({ made.placeAt(h), made.placeAt(Mesh::next(h)) });
   }
   return on;
@@ -349,16 +349,7 @@ std::vector<IrregularVertex> irregularVertices(const MadeSurface& made,
     isOpen[v] = 0;
     --open;
     IrregularVertex vertex{ made.placeAt(h), turns[v] };
-    const ValencePlace* nearest = nullptr;
-    for (const ValencePlace& other : asked)
-    {
-      const double distance = (other.place - vertex.place).norm();
-      if (distance <= takenWithin && other.valence == vertex.valence &&
-        (nearest == nullptr || distance < (nearest->place - vertex.place).norm()))
-      {
-        nearest = &other;
-      }
-    }
+    const ValencePlace* nearest = nearestOf(asked, vertex.valence, vertex.place, takenWithin);
     vertex.place = nearest == nullptr ? vertex.place : nearest->place;
     irregular.push_back(vertex);
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/IrregularMatch.h"
 
+#include "Quads/QuadSmoothing.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -171,12 +173,7 @@ std::vector<ValencePlace> expectedIrregular(
 
 ShownPlaces shownPlaces(const std::vector<IrregularVertex>& irregular, const QuadMesh& quads)
 {
-  constexpr double kReachOfSmoothing = 2; // edge lengths
-  std::vector<std::uint8_t> isOnLine = quads.onBoundary;
-  for (const QuadLine& line : quads.lines)
-  {
-    isOnLine[line.a] = isOnLine[line.b] = 1;
-  }
+  const std::vector<std::uint8_t> isOnLine = pointsOnCurves(quads);
   std::vector<double> length(quads.points.size(), 0), edges(quads.points.size(), 0);
   for (const std::array<Index, 4>& quad : quads.quads)
   {

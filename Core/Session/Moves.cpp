@@ -26,12 +26,6 @@ bool isMove(const PlacedConstraint& constraint)
   return constraint.kind == ConstraintKind::Move;
 }
 
-/// The same failure would come without the constraints.
-bool isForOtherReasons(const Status& status)
-{
-  return status.ok() || status.code == StatusCode::Cancelled || status.code == StatusCode::TooLarge;
-}
-
 /// The list of irregular vertices as an operation leaves it; in the order of places.
 void change(
   std::vector<IrregularVertex>& irregular, const std::vector<IrregularEdit::Change>& changes)
@@ -187,9 +181,8 @@ UncutResult runWithoutMoves(
   UncutResult made = run(input, first);
   if (!made.remeshed.stopped.empty())
   {
-    // Quads without the moves are none that were asked for.
-    made = {};
-    made.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    made = {}; // its quads are none that were asked for
+    made.remeshed.becomeStopped();
   }
   return made;
 }
@@ -197,7 +190,7 @@ UncutResult runWithoutMoves(
 /// Why the last run is not what the moves ask for; empty where it is.
 std::string whyNotMoved(const RemeshResult& made, const QuadsBefore& before)
 {
-  if (!isForOtherReasons(made.status))
+  if (made.failsAsAsked())
   {
     return made.status.message;
   }

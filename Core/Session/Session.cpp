@@ -181,7 +181,7 @@ PlacesOfSession SessionData::places(const RemeshOptions& settings)
     places_ = std::make_unique<SurfacePlaces>(surface, limits.threads);
     paths_ = std::make_unique<SurfacePaths>(surface, limits.threads);
     area_ = areaOfPolygons(surface);
-    diagonal_ = diagonalOf(surface);
+    diagonal_ = diagonalOf(surface.points);
   }
   return { *places_, *paths_, kOnePlace * targetEdgeLength(settings, area_, diagonal_) };
 }

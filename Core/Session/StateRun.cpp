@@ -25,12 +25,6 @@ namespace quadrille
 namespace
 {
 
-bool mayBeForConstraints(const RemeshResult& made)
-{
-  return !made.status.ok() && made.status.code != StatusCode::Cancelled &&
-    made.status.code != StatusCode::TooLarge;
-}
-
 /// Whether the run has taken details of the surface out, with which nothing else led to quads.
 bool hasFewerDetails(const RemeshResult& made)
 {
@@ -121,7 +115,7 @@ private:
   /// of the surface. leftOut: of that run.
   bool fails(const RemeshResult& made, const std::map<int, std::string>& leftOut)
   {
-    if (mayBeForConstraints(made))
+    if (made.failsAsAsked())
     {
       return true;
     }
@@ -260,14 +254,13 @@ private:
   {
     RemeshResult made = runOnce(leftOut);
     if (wasStopped_ || !isLeft(asksOfMap, leftOut) || composed_.symmetry ||
-      !composed_.input.withoutMap.empty() ||
-      !(mayBeForConstraints(made) || !made.withoutMap.empty()))
+      !composed_.input.withoutMap.empty() || !(made.failsAsAsked() || !made.withoutMap.empty()))
     {
       return made;
     }
     const std::vector<Vector3>& before =
       without(asksOfMap, withoutMapConstraints_, leftOut).withoutMap;
-    if (!before.empty() && (mayBeForConstraints(made) || made.withoutMap.size() > before.size()))
+    if (!before.empty() && (made.failsAsAsked() || made.withoutMap.size() > before.size()))
     {
       isCutBefore_ = true;
       made = runOnce(leftOut);
@@ -280,7 +273,7 @@ private:
     if (wasStopped_)
     {
       RemeshResult none;
-      none.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+      none.becomeStopped();
       return none;
     }
     compose(leftOut);
@@ -293,7 +286,7 @@ private:
     RemeshResult made = symmetric ? std::move(*symmetric) : runQuads();
     // Where faces were filled, their triangles are beside those of the others and not joined to them.
     data_.keepSurface(made.withoutMap.empty() ? made.framed : nullptr, made.frame);
-    wasStopped_ = made.status.code == StatusCode::Cancelled || !made.stopped.empty();
+    wasStopped_ = made.wasStopped();
     stages_.add(made.stages);
     ++runs_;
     tries_.addTaken(made.tries);
@@ -386,10 +379,8 @@ private:
     const int id = state_.constraints[rest[*last]]->id;
     without.erase(id);
     const std::string whyNot = reasonOf(runWith(without));
-    std::vector<std::string> before;
-    std::transform(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(*last),
-      std::back_inserter(before), [this](std::size_t i) { return state_.constraints[i]->name(); });
-    return std::make_pair(id, cannotBeMet(before, whyNot));
+    const auto nameOfRest = [&](std::size_t i) { return state_.constraints[rest[i]]->name(); };
+    return std::make_pair(id, cannotBeMet(*last, nameOfRest, whyNot));
   }
 
   SessionData& data_;

@@ -17,10 +17,8 @@ namespace quadrille
 namespace
 {
 
-/// Of an edge length: radius over which curvatures are averaged, and side of the patches. A disk of that radius is one
-/// edge wide.
+/// Of an edge length: radius over which curvatures are averaged. A disk of that radius is one edge wide.
 constexpr double kCurvatureRadius = 0.5;
-constexpr double kPatchSide = 0.25;
 constexpr double kMetTolerance = 1.05;
 /// Of a bisection for the edge length, and for the factor of the lengths.
 constexpr double kLengthTolerance = 1 + 1e-4;
@@ -255,7 +253,7 @@ void checkAdaptiveSizes(const AdaptiveSizes& sizes)
 std::vector<float> adaptiveLengths(const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength,
   double reach, int threads, const CornerCurvatures& known)
 {
-  const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
+  const SurfacePatches patches = findPatches(mesh, kCurvatureRadius / 2 * edgeLength, threads);
   std::vector<float> lengths(mesh.vertexCount(), kNoLength);
   if (sizes.gapQuads > 0)
   {

@@ -12,9 +12,6 @@ namespace quadrille
 namespace
 {
 
-/// Of the barycentric coordinate that is 0 on a side.
-constexpr double kOnSide = 1e-6;
-
 /// Of a place in a triangle of the input, the weights of the corners as KnownCurvature has them.
 struct KnownPlace
 {
@@ -46,7 +43,7 @@ struct KnownPlace
   {
     for (std::size_t k = 0; k < 3; ++k)
     {
-      if (std::abs(weights[k]) < kOnSide)
+      if (std::abs(weights[k]) < kRoundingOfSingle)
       {
         return known.alongSide[(k + 1) % 3];
       }

@@ -3,10 +3,10 @@
 #include "Sizes/Curvature.h"
 
 #include "Base/Angles.h"
-#include "Base/DisjointSets.h"
 #include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Refuse.h"
+#include "Mesh/Topology.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -20,9 +20,6 @@ namespace quadrille
 {
 namespace
 {
-
-/// A curve that turns more at a vertex has a corner there, which is an end of edges whatever their length is.
-constexpr double kCornerTurn = 40 * kPi / 180;
 
 using Cell = std::array<std::int32_t, 3>;
 
@@ -150,29 +147,23 @@ class CurveTurns
 {
 public:
   explicit CurveTurns(const Mesh& mesh)
-    : mesh_(mesh), ends_(mesh.vertexCount()), count_(ends_.size(), 0)
+    : mesh_(mesh), edges_(edgesAtVertices(mesh, constrainedEdges(mesh)))
   {
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-    {
-      if (mesh.isConstrained(h) && (mesh.isBoundary(h) || h < mesh.twin[h]))
-      {
-        add(mesh.origin[h], mesh.target(h));
-        add(mesh.target(h), mesh.origin[h]);
-      }
-    }
   }
 
   /// Adds the turn at the vertex that half-edge h, which is constrained, leaves.
   void addTurn(Index h, Bend& bend) const
   {
     const Index v = mesh_.origin[h];
-    if (count_[v] != 2)
+    if (edges_.size(v) != 2)
     {
       return;
     }
-    const Vector3 a = mesh_.position[ends_[v][0]] - mesh_.position[v];
-    const Vector3 b = mesh_.position[ends_[v][1]] - mesh_.position[v];
-    if (a.norm() > 0 && b.norm() > 0 && std::atan2(a.cross(b).norm(), -a.dot(b)) < kCornerTurn)
+    const auto away = [&](Index edge) -> Vector3
+    { return mesh_.position[mesh_.otherEnd(edge, v)] - mesh_.position[v]; };
+    const Vector3 a = away(edges_.begin(v)[0]), b = away(edges_.begin(v)[1]);
+    // A corner is an end of edges whatever their length is.
+    if (a.norm() > 0 && b.norm() > 0 && std::atan2(a.cross(b).norm(), -a.dot(b)) < kCornerAngle)
     {
       bend.turn += a.normalized() + b.normalized();
       bend.length += (a.norm() + b.norm()) / 2;
@@ -180,18 +171,8 @@ public:
   }
 
 private:
-  void add(Index v, Index end)
-  {
-    if (count_[v] < 2)
-    {
-      ends_[v][count_[v]] = end;
-    }
-    count_[v] = static_cast<std::uint8_t>(std::min(count_[v] + 1, 3));
-  }
-
   const Mesh& mesh_;
-  std::vector<std::array<Index, 2>> ends_;
-  std::vector<std::uint8_t> count_;
+  Grouped<> edges_; ///< constrained ones at each vertex
 };
 
 std::vector<Bend> bendsOf(const Mesh& mesh, const SurfacePatches& patches, int threads)
@@ -269,27 +250,12 @@ SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
   refuseIf(!(cell > 0) || !std::isfinite(cell),
     "patches of a surface: the side of a cell must be positive and finite.");
   const std::vector<Cell> cells = cellsOf(mesh, cell, threads);
-  DisjointSets sets(mesh.faceCount(), threads);
-  parallelForEach<Index>(mesh.faceCount(), kHeavyChunk, threads,
-    [&](Index f)
-    {
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        if (!mesh.isConstrained(h) && h < mesh.twin[h] &&
-          cells[f] == cells[Mesh::face(mesh.twin[h])])
-        {
-          sets.join(f, Mesh::face(mesh.twin[h]));
-        }
-      }
-    });
+  DisjointSets sets = joinedFaces(mesh, threads,
+    [&](Index h)
+    { return !mesh.isFeature(h) && cells[Mesh::face(h)] == cells[Mesh::face(mesh.twin[h])]; });
   SurfacePatches result;
-  result.patchOf.resize(mesh.faceCount());
   Index count = 0;
-  for (Index f = 0; f < mesh.faceCount(); ++f) // the root is the lowest face
-  {
-    const Index root = sets.find(f);
-    result.patchOf[f] = root == f ? count++ : result.patchOf[root];
-  }
+  result.patchOf = numberSets(sets, mesh.faceCount(), count);
   result.patches.resize(count);
   const Grouped<> faces = facesOfPatches(result.patchOf, count);
   parallelForEach<Index>(count, kHeavyChunk, threads,

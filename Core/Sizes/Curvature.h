@@ -32,8 +32,9 @@ struct SurfacePatches
   void gather(Index p, double radius, std::vector<Index>& near) const;
 };
 
-/// cell: side of the grid's cells, in units of the mesh, > 0. Large faces are patches of their own. Throws InvalidInput
-/// unless cell is positive and finite. The result does not depend on the number of threads.
+/// cell: side of the grid's cells, in units of the mesh, > 0; half the radius over which curvatures are averaged. Large
+/// faces are patches of their own. Throws InvalidInput unless cell is positive and finite. The result does not depend
+/// on the number of threads.
 SurfacePatches findPatches(const Mesh& mesh, double cell, int threads);
 
 /// Of a patch and those round it.

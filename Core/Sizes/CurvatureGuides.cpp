@@ -14,9 +14,6 @@ namespace quadrille
 namespace
 {
 
-/// Of an edge length: radius over which the tensors are averaged, and side of the patches.
-constexpr double kTensorRadius = 1;
-constexpr double kTensorPatch = 0.5;
 /// Radians over an edge from which on a bend counts in full; guides of less weight than the last are none.
 constexpr double kFullBend = 0.1;
 constexpr double kLeastConfidence = 0.05;
@@ -34,9 +31,9 @@ std::size_t addCurvatureGuides(
   PreparedSurface& surface, double edgeLength, double leastAnisotropy, int threads)
 {
   const Mesh& mesh = surface.mesh;
-  const SurfacePatches patches = findPatches(mesh, kTensorPatch * edgeLength, threads);
+  const SurfacePatches patches = findPatches(mesh, edgeLength / 2, threads);
   const std::vector<PatchCurvature> curvatures =
-    patchCurvatures(mesh, patches, kTensorRadius * edgeLength, threads);
+    patchCurvatures(mesh, patches, edgeLength, threads);
   std::vector<double> confidence;
   confidence.reserve(curvatures.size());
   for (const PatchCurvature& curvature : curvatures)

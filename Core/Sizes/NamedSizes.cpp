@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sizes/NamedSizes.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 #include "Mesh/NearestTriangle.h"
@@ -194,20 +195,6 @@ private:
 };
 
 //------------------------------------------------------------------------------
-/// Segments, and points as segments without length.
-struct Lines
-{
-  TriangleList list;
-
-  void add(const Vector3& a, const Vector3& b)
-  {
-    const auto at = static_cast<Index>(list.points.size());
-    list.points.push_back(a);
-    list.points.push_back(b);
-    list.corners.push_back({ at, at + 1, at + 1 });
-  }
-};
-
 /// What the bits say of the triangle's parent, for the triangle.
 std::uint8_t featureBits(unsigned ofParent, const SplitTriangles::Triangle& triangle)
 {
@@ -249,9 +236,9 @@ double diagonalOf(const NamedSurface& surface)
 
 /// Where triangles meet of which other sizes are asked.
 template <class FactorOf>
-Lines bordersOf(const NamedSurface& surface, const FactorOf& factorOf)
+TriangleList bordersOf(const NamedSurface& surface, const FactorOf& factorOf)
 {
-  Lines borders;
+  TriangleList borders;
   std::map<std::pair<Index, Index>, double> factorAt;
   for (Index t = 0; t < surface.triangles.size(); ++t)
   {
@@ -261,7 +248,7 @@ Lines bordersOf(const NamedSurface& surface, const FactorOf& factorOf)
       const auto [found, isNew] = factorAt.emplace(std::minmax(a, b), factorOf(t));
       if (!isNew && found->second != factorOf(t))
       {
-        borders.add(surface.points[a], surface.points[b]);
+        borders.addSegment(surface.points[a], surface.points[b]);
       }
     }
   }
@@ -393,14 +380,14 @@ SizedTriangles NamedParts::sized() const
 {
   const double diagonal = diagonalOf(surface_);
   SplitTriangles split(surface_, kShortest * diagonal);
-  Lines borders = bordersOf(surface_, [this](Index t) { return factorOf(t); });
-  std::map<double, Lines> linesOf; // by factor, the smallest first
+  TriangleList borders = bordersOf(surface_, [this](Index t) { return factorOf(t); });
+  std::map<double, TriangleList> linesOf; // by factor, the smallest first
   for (std::size_t e = 0; e < edges_.size(); ++e)
   {
     const std::vector<Vector3>& line = surface_.edgeLines[e];
     for (std::size_t i = 0; edges_[e].factor > 0 && i + 1 < line.size(); ++i)
     {
-      linesOf[edges_[e].factor].add(line[i], line[i + 1]);
+      linesOf[edges_[e].factor].addSegment(line[i], line[i + 1]);
     }
   }
   for (std::size_t v = 0; v < vertices_.size(); ++v)
@@ -408,19 +395,19 @@ SizedTriangles NamedParts::sized() const
     const Vector3& p = surface_.vertexPoints[v];
     if (vertices_[v].factor > 0 && p.allFinite())
     {
-      linesOf[vertices_[v].factor].add(p, p);
+      linesOf[vertices_[v].factor].addSegment(p, p);
     }
   }
   for (const auto& [factor, lines] : linesOf)
   {
-    for (const std::array<Index, 3>& corners : lines.list.corners)
+    for (const std::array<Index, 3>& corners : lines.corners)
     {
-      borders.add(lines.list.points[corners[0]], lines.list.points[corners[1]]);
+      borders.addSegment(lines.points[corners[0]], lines.points[corners[1]]);
     }
   }
-  if (!borders.list.corners.empty())
+  if (!borders.corners.empty())
   {
-    split.split(NearestTriangle(borders.list));
+    split.split(NearestTriangle(borders));
   }
   SizedTriangles result = trianglesOf(split, surface_);
   // Of faces, then of lines, then those that are there.
@@ -435,7 +422,7 @@ SizedTriangles NamedParts::sized() const
   }
   for (const auto& [factor, lines] : linesOf)
   {
-    const NearestTriangle tree(lines.list);
+    const NearestTriangle tree(lines);
     for (std::size_t i = 0; i < result.sizes.size(); ++i)
     {
       pollNowAndThen(i);
@@ -477,19 +464,14 @@ void refuseUnknownNames(const std::vector<NamedSize>& sizes, const std::vector<b
   refuseIf(names.empty(), what, " is called \"", size.pattern,
     "\", as the surface has no names: take one from the CAD reader, or with the cell array "
     "PatchNames");
-  constexpr std::size_t kMostTold = 5;
   std::vector<std::string> near = names;
   std::stable_sort(near.begin(), near.end(),
     [&](const std::string& a, const std::string& b)
     { return editDistance(size.pattern, a) < editDistance(size.pattern, b); });
   near.resize(std::min(near.size(), kMostTold));
-  std::string list;
-  for (const std::string& name : near)
-  {
-    list += (list.empty() ? "" : ", ") + name;
-  }
   refuse(what, " is called \"", size.pattern, "\"; the nearest of ", names.size(),
-    names.size() == 1 ? " name is " : " names are ", list,
+    names.size() == 1 ? " name is " : " names are ",
+    joined(near, near.size(), [](const std::string& name) { return name; }),
     isLarge ? " (factors above 1 are for faces)" : "");
 }
 

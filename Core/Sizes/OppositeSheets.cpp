@@ -5,6 +5,7 @@
 #include "Sizes/OppositeSheets.h"
 
 #include "Base/Angles.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 
 #include <Eigen/Geometry>
@@ -161,13 +162,6 @@ double distanceFrom(
   return nearest < reach ? nearest : kInfinity;
 }
 
-float medianGap(std::vector<float>& values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 } // namespace
 
 std::vector<float> distancesToOpposite(
@@ -195,7 +189,7 @@ std::vector<float> distancesToOpposite(
         {
           values.push_back(single[patches.neighbours[k]]);
         }
-        result[i] = medianGap(values);
+        result[i] = middleOf(values);
       }
     });
   return result;

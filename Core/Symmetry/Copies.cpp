@@ -3,6 +3,7 @@
 #include "Symmetry/Copies.h"
 
 #include "Base/PlaceText.h"
+#include "Mesh/Topology.h"
 #include "Prepare/Frame.h"
 #include "Quads/QuadTopology.h"
 #include "Symmetry/CutBorder.h"
@@ -101,14 +102,8 @@ CopiedMesh copyMesh(
   copied.partFaces = part.faceCount();
   copied.isGlued = isometry.isReflection ? edgesInPlane(part, isometry.plane(), tolerance)
                                          : std::vector<std::uint8_t>(part.halfEdgeCount(), 0);
-  std::vector<std::uint8_t> inPlane(part.vertexCount(), 0);
-  for (Index h = 0; h < part.halfEdgeCount(); ++h)
-  {
-    if (copied.isGlued[h] != 0)
-    {
-      inPlane[part.origin[h]] = inPlane[part.target(h)] = 1;
-    }
-  }
+  const std::vector<std::uint8_t> inPlane =
+    endsWhere(part, [&](Index h) { return copied.isGlued[h] != 0; });
   const ImageNumbers numbers(inPlane.size(), fixedPoints(inPlane), isometry.order);
 
   Mesh& mesh = copied.mesh;

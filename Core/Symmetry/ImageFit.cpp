@@ -4,6 +4,8 @@
 
 #include "Base/Parallel.h"
 #include "Pipeline/PlannedSurface.h"
+#include "Quads/QuadProjection.h"
+#include "Quads/QuadShape.h"
 
 #include <algorithm>
 #include <array>
@@ -29,19 +31,10 @@ TriangleList linesOf(const Mesh& mesh, bool boundary)
       boundary ? mesh.isBoundary(h) : !mesh.isBoundary(h) && mesh.isFeature(h) && h < mesh.twin[h];
     if (wanted)
     {
-      const auto first = static_cast<Index>(list.points.size());
-      list.points.push_back(mesh.position[mesh.origin[h]]);
-      list.points.push_back(mesh.position[mesh.target(h)]);
-      list.corners.push_back({ first, first + 1, first + 1 });
+      list.addSegment(mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)]);
     }
   }
   return list;
-}
-
-Vector3 normalOf(const QuadMesh& quads, const std::array<Index, 4>& quad)
-{
-  return (quads.points[quad[2]] - quads.points[quad[0]])
-    .cross(quads.points[quad[3]] - quads.points[quad[1]]);
 }
 
 class ImageFit
@@ -57,7 +50,7 @@ public:
 
   FittedImages run()
   {
-    normals_ = pointNormals(quads_);
+    normals_ = pointNormals(quads_.points, quads_.quads);
     findLines();
     targets_.assign(
       quads_.points.begin() + static_cast<std::ptrdiff_t>(first_), quads_.points.end());
@@ -186,7 +179,7 @@ private:
         const Vector3 centre = (quads_.points[quad[0]] + quads_.points[quad[1]] +
                                  quads_.points[quad[2]] + quads_.points[quad[3]]) /
           4;
-        const Vector3 normal = normalOf(quads_, quad);
+        const Vector3 normal = diagonalNormal(cornersOf(quads_.points, quad));
         fit.quadPolygons[q] = surface.sourcePolygon[whole_.nearestFace(centre, normal).triangle];
       });
   }
@@ -219,20 +212,6 @@ NearestTriangle::Place SearchedSurface::nearestFace(const Vector3& p, const Vect
 std::size_t SearchedSurface::bytes() const
 {
   return bytesOf(surface) + faces.bytes() + features.bytes() + boundary.bytes();
-}
-
-std::vector<Vector3> pointNormals(const QuadMesh& quads)
-{
-  std::vector<Vector3> normals(quads.points.size(), Vector3::Zero());
-  for (const std::array<Index, 4>& quad : quads.quads)
-  {
-    const Vector3 normal = normalOf(quads, quad);
-    for (const Index corner : quad)
-    {
-      normals[corner] += normal;
-    }
-  }
-  return normals;
 }
 
 FittedImages fitImages(

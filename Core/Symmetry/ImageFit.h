@@ -38,9 +38,6 @@ struct FittedImages
   Vector3 place = Vector3::Zero(); ///< of that one, before
 };
 
-/// Normals of the points, of any length.
-std::vector<Vector3> pointNormals(const QuadMesh& quads);
-
 /// Points behind those of the part that are farther than `tolerance` from the surface are put there: those of features
 /// and boundaries onto the nearest one of their kind where there is one within `reach`, others onto the nearest place
 /// that faces the same way. What points are moved is evened out with their neighbours', so that they keep their order.

@@ -7,6 +7,7 @@
 #include "Base/TryCount.h"
 #include "GridMap/Certificate.h"
 #include "GridMap/RelaxMap.h"
+#include "Mesh/SurfaceParts.h"
 #include "Mesh/Topology.h"
 #include "Requests/Guides.h"
 #include "Symmetry/CutBorder.h"
@@ -78,49 +79,22 @@ public:
   Band build() const
   {
     Band band;
-    std::vector<Index> faceIn(mesh_.faceCount(), kInvalidIndex);
-    std::vector<Index> vertexIn(mesh_.vertexCount(), kInvalidIndex);
-    for (Index f = 0; f < mesh_.faceCount(); ++f)
+    band.face = idsWhere(mesh_.faceCount(), [this](Index f) { return isInside(f); });
+    TrianglesOfMesh part = partOf(mesh_, band.face);
+    band.mesh = std::move(part.mesh);
+    band.vertex = std::move(part.vertices);
+    for (Index h = 0; h < band.mesh.halfEdgeCount(); ++h)
     {
-      if (isInside(f))
-      {
-        faceIn[f] = static_cast<Index>(band.face.size());
-        band.face.push_back(f);
-      }
+      band.mesh.flags.edit()[h] = mesh_.flags[3 * band.face[h / 3] + h % 3];
     }
-    for (const Index f : band.face)
-    {
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        Index& v = vertexIn[mesh_.origin[h]];
-        if (v == kInvalidIndex)
-        {
-          v = static_cast<Index>(band.vertex.size());
-          band.vertex.push_back(mesh_.origin[h]);
-        }
-        const Index twin = mesh_.twin[h];
-        const Index across = twin == kInvalidIndex ? twin : faceIn[Mesh::face(twin)];
-        band.mesh.origin.push_back(v);
-        band.mesh.twin.push_back(across == kInvalidIndex ? across : 3 * across + twin % 3);
-        band.mesh.flags.push_back(mesh_.flags[h]);
-      }
-    }
-    band.isCut.assign(band.vertex.size(), 0);
-    for (const Index v : band.vertex)
-    {
-      band.mesh.position.push_back(mesh_.position[v]);
-      if (!mesh_.sizing.empty())
-      {
-        band.mesh.sizing.push_back(mesh_.sizing[v]);
-      }
-    }
+    std::vector<std::uint8_t> isBeside(mesh_.vertexCount(), 0); // a face outside
     for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
     {
-      const Index v = vertexIn[mesh_.origin[h]];
-      if (v != kInvalidIndex && faceIn[Mesh::face(h)] == kInvalidIndex)
-      {
-        band.isCut[v] = 1;
-      }
+      isBeside[mesh_.origin[h]] |= isInside(Mesh::face(h)) ? 0 : 1;
+    }
+    for (const Index v : band.vertex)
+    {
+      band.isCut.push_back(isBeside[v]);
     }
     return band;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Symmetry/PartDrawn.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 
 #include <algorithm>
@@ -67,14 +68,12 @@ std::vector<PieceInPart> piecesOf(const PartTask& task, const std::vector<Vector
       p = task.isometry.image(p, steps);
     }
   }
-  pieces.erase(std::remove_if(pieces.begin(), pieces.end(),
-                 [&](const PieceInPart& piece)
-                 {
-                   return std::all_of(piece.points.begin(), piece.points.end(),
-                     [&](const Vector3& p)
-                     { return (p - piece.points.front()).norm() <= task.tolerance; });
-                 }),
-    pieces.end());
+  eraseIf(pieces,
+    [&](const PieceInPart& piece)
+    {
+      return std::all_of(piece.points.begin(), piece.points.end(),
+        [&](const Vector3& p) { return (p - piece.points.front()).norm() <= task.tolerance; });
+    });
   return pieces;
 }
 

@@ -216,11 +216,7 @@ private:
         pointOf_[part_.vertex[i]] = static_cast<Index>(i);
       }
     }
-    isBoundary_.assign(mesh.vertexCount(), 0);
-    for (const Index h : boundaryHalfEdges(mesh, task_.threads))
-    {
-      isBoundary_[mesh.origin[h]] = isBoundary_[mesh.target(h)] = 1;
-    }
+    isBoundary_ = boundaryVertices(mesh);
   }
 
   const Vector3& placeOf(const ValenceRequest& request) const

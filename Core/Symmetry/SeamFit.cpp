@@ -3,6 +3,7 @@
 // The points of a seam half way between their two places, and those round it: fitSeams.
 #include "Base/Lists.h"
 #include "Evaluation/QuadQuality.h"
+#include "Quads/QuadProjection.h"
 #include "Symmetry/Seams.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ public:
   {
     findRoles();
     findNeighbours();
-    normals_ = pointNormals(quads_);
+    normals_ = pointNormals(quads_.points, quads_.quads);
     const std::vector<Vector3> before = quads_.points;
     followPairs();
     const std::size_t given = countUnsound();

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 // The points of both cuts of a wedge that are each other's images: pairSeams.
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Quads/QuadTopology.h"
 #include "Requests/SeamRequests.h"
@@ -168,13 +169,8 @@ WedgeSeams pairSeams(const QuadMesh& quads, const Mesh& mesh,
     const std::vector<SamePoints> pairs = pairing.pair(left, right);
     result.pairs.insert(result.pairs.end(), pairs.begin(), pairs.end());
   }
-  const auto order = [](const SamePoints& a, const SamePoints& b)
-  { return std::pair(a.first, a.second) < std::pair(b.first, b.second); };
-  const auto same = [](const SamePoints& a, const SamePoints& b)
-  { return a.first == b.first && a.second == b.second; };
-  std::sort(result.pairs.begin(), result.pairs.end(), order);
-  result.pairs.erase(
-    std::unique(result.pairs.begin(), result.pairs.end(), same), result.pairs.end());
+  sortUniqueBy(
+    result.pairs, [](const SamePoints& pair) { return std::pair(pair.first, pair.second); });
   return result;
 }
 

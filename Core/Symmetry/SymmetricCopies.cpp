@@ -22,9 +22,6 @@ namespace quadrille
 namespace
 {
 
-/// The image of a feature may be farther from its counterpart than the image of the surface from the surface.
-constexpr double kFeatureReach = 3;
-
 /// Of quads the part, for its sources only.
 QuadMesh partOf(const CopiedQuads& copied)
 {
@@ -131,7 +128,7 @@ void SymmetryRun::locatePart(
 void SymmetryRun::takeQuads(CopiedQuads quads)
 {
   const FittedImages fit = fitImages(quads, *whole_, tolerance_,
-    kFeatureReach * made_.deviation.maximum + tolerance_, options_.threads);
+    kReachOfDeviation * made_.deviation.maximum + tolerance_, options_.threads);
   made_.pointSources.insert(made_.pointSources.end(), fit.images.begin(), fit.images.end());
   made_.quadPolygons.insert(
     made_.quadPolygons.end(), fit.quadPolygons.begin(), fit.quadPolygons.end());

@@ -42,7 +42,7 @@ SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options
   catch (const Cancelled&)
   {
     SymmetricResult stopped;
-    stopped.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    stopped.remeshed.becomeStopped();
     return stopped;
   }
 }

@@ -36,10 +36,8 @@ namespace
 /// Times as many quads as were asked for, at most, where the part is too narrow for them.
 constexpr std::size_t kMostTimesQuads = 4;
 /// Places on both sides of a wedge may be farther from each other's image than the surface from its own, by this share
-/// of the diagonal.
+/// of the diagonal, and by kReachOfDeviation.
 constexpr double kSeamReach = 1e-3;
-/// And by this factor.
-constexpr double kSeamFactor = 3;
 /// Quads that may meet in a point on the axis: their corners have 20 degrees.
 constexpr int kMostAtPole = 18;
 
@@ -312,8 +310,8 @@ void SymmetryRun::requireBothSides() const
 void SymmetryRun::cutOneWedge()
 {
   const double slack = kSeamReach * made_.diagonal + tolerance_;
-  const WedgeReach reach{ kSeamFactor * made_.deviation.maximum + slack,
-    kSeamFactor * made_.deviation.rms + slack };
+  const WedgeReach reach{ kReachOfDeviation * made_.deviation.maximum + slack,
+    kReachOfDeviation * made_.deviation.rms + slack };
   withFeatures(
     [&](Mesh& mesh, double)
     {

@@ -22,6 +22,10 @@ namespace quadrille
 /// "0.0012".
 std::string shareText(double share);
 
+/// The image of a single place, as of a feature or a cut, may be so many times as far from its counterpart as the image
+/// of the surface from the surface.
+constexpr double kReachOfDeviation = 3;
+
 /// One run: each step leaves what the next ones need.
 class SymmetryRun
 {

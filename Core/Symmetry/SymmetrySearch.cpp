@@ -3,6 +3,7 @@
 #include "Symmetry/SymmetrySearch.h"
 
 #include "Base/Angles.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 
 #include <Eigen/Eigenvalues>
@@ -28,8 +29,6 @@ constexpr std::size_t kMostPoints = 20000; ///< of the surface, for the maximum
 /// Steps go on while they make the deviation less by this share, or it is rounding.
 constexpr double kStillBetter = 1e-3;
 constexpr double kMostTilt = 0.3; ///< of the direction, radians a step
-/// Deviations that differ by less than this, over the size of the surface, are equal.
-constexpr double kEqual = 1e-9;
 
 /// Triangles, about, that stand for the surface until the last samples.
 constexpr std::size_t kFewTriangles = 50000;
@@ -158,9 +157,7 @@ double medianOf(const Places& places)
   {
     distances.push_back(place.distance);
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return middleOf(distances);
 }
 
 /// Unit vectors: the axes, others between two of them, as where two moments are equal any could be the one asked for,
@@ -329,7 +326,7 @@ private:
   Vector step(const Isometry& isometry, const Places& places) const
   {
     const Tangents along = tangents(isometry);
-    const double scale = std::max(3 * medianOf(places), kEqual * size_);
+    const double scale = std::max(3 * medianOf(places), kRounding * size_);
     Matrix a = Matrix::Zero();
     Vector b = Vector::Zero();
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -345,7 +342,7 @@ private:
     }
     // A sphere, or a body of revolution, leaves some of it free.
     Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
-    solver.setThreshold(1e-9);
+    solver.setThreshold(kRounding);
     solver.compute(a);
     return solver.solve(b);
   }
@@ -367,10 +364,10 @@ private:
   int threads_;
 };
 
-/// In their order, but those that are better by more than kEqual come first.
+/// In their order, but those that are better by more than kRounding come first.
 void sortByRms(std::vector<Candidate>& candidates, double size)
 {
-  const double unit = kEqual * size;
+  const double unit = kRounding * size;
   std::stable_sort(candidates.begin(), candidates.end(),
     [unit](const Candidate& a, const Candidate& b)
     { return std::floor(a.rms / unit) < std::floor(b.rms / unit); });

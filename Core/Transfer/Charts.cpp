@@ -4,14 +4,13 @@
 
 #include "Base/ChartRotation.h"
 #include "Base/Progress.h"
+#include "Mesh/BreadthFirst.h"
 
 namespace quadrille
 {
 
 namespace
 {
-
-constexpr std::size_t kPollFaces = 1U << 15;
 
 /// Whether both images of the edge of h are the same.
 bool isContinuous(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h)
@@ -39,43 +38,6 @@ bool carryAcross(const Mesh& mesh, std::vector<FixedVec2>& uv, Index h)
   return true;
 }
 
-/// Visits the faces breadth first over the edges that `enter` lets through; returns the number of trees.
-template <typename Enter>
-std::size_t visitFaces(const Mesh& mesh, const Enter& enter)
-{
-  std::size_t trees = 0;
-  std::vector<bool> seen(mesh.faceCount(), false);
-  std::vector<Index> queue;
-  for (Index seed = 0; seed < mesh.faceCount(); ++seed)
-  {
-    pollNowAndThen(seed);
-    if (seen[seed])
-    {
-      continue;
-    }
-    ++trees;
-    seen[seed] = true;
-    queue.assign(1, seed);
-    for (std::size_t i = 0; i < queue.size(); ++i)
-    {
-      if (i % kPollFaces == 0)
-      {
-        poll();
-      }
-      for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h)
-      {
-        const Index g = mesh.twin[h];
-        if (g != kInvalidIndex && !seen[Mesh::face(g)] && enter(h))
-        {
-          seen[Mesh::face(g)] = true;
-          queue.push_back(Mesh::face(g));
-        }
-      }
-    }
-  }
-  return trees;
-}
-
 std::size_t countSeams(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
   std::size_t seams = 0;
@@ -92,7 +54,9 @@ std::size_t countSeams(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 
 ChartCounts mergeCharts(const Mesh& mesh, std::vector<FixedVec2>& uv)
 {
-  const std::size_t charts = visitFaces(mesh, [&](Index h) { return carryAcross(mesh, uv, h); });
+  std::size_t charts = 0;
+  visitFaces(
+    mesh.twin, [&](Index) { ++charts; }, [&](Index h) { return carryAcross(mesh, uv, h); });
   return { charts, countSeams(mesh, uv) };
 }
 

@@ -41,13 +41,7 @@ std::vector<int> DefectSearch::countTurns(int threads) const
       const std::array<std::int8_t, 3> corners = enteredBy(static_cast<Index>(f));
       std::copy(corners.begin(), corners.end(), &entered[3 * f]);
     });
-  std::vector<int> turns(mesh_.vertexCount(), 0);
-  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    turns[mesh_.origin[h]] += entered[h];
-  }
-  return turns;
+  return sumTurns(mesh_, [&](Index h) { return entered[h]; });
 }
 
 int DefectSearch::turnsRound(Index corner) const
@@ -78,8 +72,7 @@ std::vector<Index> DefectSearch::findAmong(
     }
   }
   sortUnique(faces);
-  faces.erase(
-    std::remove_if(faces.begin(), faces.end(), [&](Index f) { return !isDefect(f); }), faces.end());
+  eraseIf(faces, [&](Index f) { return !isDefect(f); });
   return faces;
 }
 

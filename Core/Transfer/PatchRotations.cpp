@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/ChartRotation.h"
+#include "Transfer/PlaneReplay.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
@@ -20,58 +21,42 @@ namespace quadrille
 namespace
 {
 
-using ComplexNumber = std::complex<double>;
-
 /// Edges of slivers join their faces no more than so many times as much, or as little, as others.
 constexpr double kMostWeight = 100;
 
-/// Corners of a face laid out with its first edge along x.
-std::array<Vector2, 3> laidOut(const Mesh& mesh, Index f)
+/// Half-edge h where its face is laid out.
+Complex alongEdge(const Mesh& mesh, Index h)
 {
-  const Vector3 ab = mesh.edgeVector(3 * f), ac = -mesh.edgeVector(3 * f + 2);
-  const double length = ab.norm();
-  if (!(length > 0))
-  {
-    return { Vector2(0, 0), Vector2(0, 0), Vector2(0, ac.norm()) };
-  }
-  return { Vector2(0, 0), Vector2(length, 0),
-    Vector2(ab.dot(ac) / length, ab.cross(ac).norm() / length) };
+  const std::array<Complex, 3> p = layOut(mesh, Mesh::face(h));
+  return p[(h + 1) % 3] - p[h % 3];
 }
 
 /// The rotation that is nearest to the map of a face; none where it has no area here or there.
-std::optional<ComplexNumber> rotationOf(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index f)
+std::optional<Complex> rotationOf(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index f)
 {
-  const std::array<Vector2, 3> p = laidOut(mesh, f);
+  const std::array<Complex, 3> p = layOut(mesh, f);
   const Vector2 a = toDouble(uv[3 * f + 1] - uv[3 * f]), b = toDouble(uv[3 * f + 2] - uv[3 * f]);
-  const double area = p[1].x() * p[2].y();
+  const double area = p[1].real() * p[2].imag();
   if (!(determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) > 0) || !(area > 0))
   {
     return std::nullopt;
   }
   // J = [a b] [p1 p2]^-1; its rotation is that of (J00 + J11) + i (J10 - J01).
-  const Vector2 jx = a / p[1].x();
-  const Vector2 jy = (b - jx * p[2].x()) / p[2].y();
-  const ComplexNumber turned(jx.x() + jy.y(), jx.y() - jy.x());
+  const Vector2 jx = a / p[1].real();
+  const Vector2 jy = (b - jx * p[2].real()) / p[2].imag();
+  const Complex turned(jx.x() + jy.y(), jx.y() - jy.x());
   const double size = std::abs(turned);
-  return size > 0 && std::isfinite(size) ? std::optional<ComplexNumber>(turned / size)
-                                         : std::nullopt;
+  return size > 0 && std::isfinite(size) ? std::optional<Complex>(turned / size) : std::nullopt;
 }
 
 /// By what a rotation in face(h) is multiplied for the same one in the face of its twin.
-std::optional<ComplexNumber> carriedAcross(
-  const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h)
+std::optional<Complex> carriedAcross(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h)
 {
   const Index g = mesh.twin[h];
-  const auto direction = [&](Index k)
-  {
-    const std::array<Vector2, 3> p = laidOut(mesh, Mesh::face(k));
-    const Vector2 d = p[(k + 1) % 3] - p[k % 3];
-    return ComplexNumber(d.x(), d.y());
-  };
   const std::optional<int> quarters =
     rotationBetween(uv[Mesh::next(h)] - uv[h], uv[g] - uv[Mesh::next(g)]);
-  const ComplexNumber here = direction(h), there = -direction(g);
-  const ComplexNumber carried = here * std::conj(there);
+  const Complex here = alongEdge(mesh, h), there = -alongEdge(mesh, g);
+  const Complex carried = here * std::conj(there);
   const double size = std::abs(carried);
   if (!quarters || !(size > 0))
   {
@@ -92,9 +77,7 @@ double weightOf(const Mesh& mesh, Index h)
 
 double directionOf(const Mesh& mesh, Index h)
 {
-  const std::array<Vector2, 3> p = laidOut(mesh, Mesh::face(h));
-  const Vector2 d = p[(h + 1) % 3] - p[h % 3];
-  return std::atan2(d.y(), d.x());
+  return std::arg(alongEdge(mesh, h));
 }
 
 std::vector<double> patchRotations(const Mesh& mesh, const std::vector<FixedVec2>& uv,
@@ -103,7 +86,7 @@ std::vector<double> patchRotations(const Mesh& mesh, const std::vector<FixedVec2
   const auto idOf = [&](Index f)
   { return static_cast<int>(std::lower_bound(patch.begin(), patch.end(), f) - patch.begin()); };
   const Eigen::Index count = static_cast<Eigen::Index>(patch.size());
-  std::vector<Eigen::Triplet<ComplexNumber>> entries;
+  std::vector<Eigen::Triplet<Complex>> entries;
   Eigen::VectorXcd right = Eigen::VectorXcd::Zero(count);
   bool known = false;
   for (int i = 0; i < count; ++i)
@@ -115,7 +98,7 @@ std::vector<double> patchRotations(const Mesh& mesh, const std::vector<FixedVec2
       {
         continue;
       }
-      const std::optional<ComplexNumber> across = carriedAcross(mesh, uv, g);
+      const std::optional<Complex> across = carriedAcross(mesh, uv, g);
       if (!across)
       {
         continue;
@@ -127,7 +110,7 @@ std::vector<double> patchRotations(const Mesh& mesh, const std::vector<FixedVec2
         entries.emplace_back(i, i, weight);
         entries.emplace_back(i, idOf(Mesh::face(g)), -weight * *across);
       }
-      else if (const std::optional<ComplexNumber> outside = rotationOf(mesh, uv, Mesh::face(g)))
+      else if (const std::optional<Complex> outside = rotationOf(mesh, uv, Mesh::face(g)))
       {
         entries.emplace_back(i, i, weight);
         right[i] += weight * *across * *outside;
@@ -139,9 +122,9 @@ std::vector<double> patchRotations(const Mesh& mesh, const std::vector<FixedVec2
   {
     return {};
   }
-  Eigen::SparseMatrix<ComplexNumber> matrix(count, count);
+  Eigen::SparseMatrix<Complex> matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<ComplexNumber>> solver(matrix);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> solver(matrix);
   if (solver.info() != Eigen::Success)
   {
     return {};

@@ -72,28 +72,11 @@ std::size_t countNotPositive(const std::vector<FixedVec2>& uv, int threads)
     [&](std::size_t f) { return !(determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) > 0); });
 }
 
-std::vector<Index> verticesOf(const Mesh& fine, const std::vector<Index>& faces)
-{
-  std::vector<Index> vertices;
-  for (const Index f : faces)
-  {
-    vertices.insert(
-      vertices.end(), { fine.origin[3 * f], fine.origin[3 * f + 1], fine.origin[3 * f + 2] });
-  }
-  sortUnique(vertices);
-  return vertices;
-}
-
 /// Quarter turns of a map of the coarse level round each of its vertices.
 std::vector<int> turnsOf(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
-  std::vector<int> turns(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    turns[mesh.origin[h]] += quadrantsEntered(&uv[3 * Mesh::face(h)], static_cast<int>(h % 3), 1);
-  }
-  return turns;
+  return sumTurns(mesh,
+    [&](Index h) { return quadrantsEntered(&uv[3 * Mesh::face(h)], static_cast<int>(h % 3), 1); });
 }
 
 /// Whether a map that is not valid is one of a few triangles.
@@ -129,7 +112,7 @@ TransferResult replayAndMend(const Mesh& fine, const Level& level, std::size_t r
       mendPatches(fine, result.uv, turns(), options.threads, options.progress);
     result.mendedPatches = mend.patches;
     result.notPositive = mend.notPositive;
-    result.defectVertices = verticesOf(fine, mend.defects);
+    result.defectVertices = cornerVertices(fine, mend.defects);
   }
   return result;
 }

@@ -159,7 +159,7 @@ std::string whyNotThinned(const QuadProblem& problem, const SurfaceInput& input,
   const auto measure = [&]
   {
     requirePolygons(input);
-    return std::pair(areaOfPolygons(input), diagonalOf(input));
+    return std::pair(areaOfPolygons(input), diagonalOf(input.points));
   };
   return problem.thinning != Thinning::Automatic ? "it is to be kept whole"
     : triangles < kTrianglesWorthThinning || !isFine(triangles, problem.options, measure)

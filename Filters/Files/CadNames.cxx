@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/CadNames.h"
 
+#include "Base/Lists.h"
+
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkFieldData.h>
@@ -203,7 +205,6 @@ std::string cadNamesWithoutSet(vtkDataSet* data, const MeshSets& sets)
   {
     return {};
   }
-  constexpr std::size_t kMostTold = 5;
   std::string list;
   for (std::size_t i = 0; i < missing.size() && i < kMostTold; ++i)
   {

@@ -43,7 +43,7 @@ namespace
 struct ItemsOfPiece
 {
   std::vector<std::size_t> items;
-  std::vector<PiecePlace> places;
+  std::vector<SurfacePoint> places;
 
   ItemsOfPiece(const PlacedItems& all, std::size_t piece)
   {
@@ -147,7 +147,7 @@ SpreadSurface::Carried SpreadSurface::carry(const Orders& orders)
   {
     SpreadPiece& piece = pieces_[k];
     const ItemsOfPiece points(orders.points, k), quads(orders.quads, k);
-    std::vector<PiecePlace> places = points.places;
+    std::vector<SurfacePoint> places = points.places;
     places.insert(places.end(), quads.places.begin(), quads.places.end());
     const std::vector<CarriedPlace> found = piece.piece->carry(places);
     std::vector<PointOrigin> originsHere;

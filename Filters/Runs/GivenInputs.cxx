@@ -142,7 +142,7 @@ ConvertedSurface readInputs(const GivenInputs& inputs, std::vector<ToldOfInputs>
     if (!known->area)
     {
       known->area = areaOfPolygons(surface.input);
-      known->diagonal = diagonalOf(surface.input);
+      known->diagonal = diagonalOf(surface.input.points);
     }
     constraints.sameWithin =
       kOnePlace * targetEdgeLength(inputs.options, *known->area, *known->diagonal);

@@ -113,7 +113,6 @@ TEST(GuidesOfLevel, ChangeNoTriangleAndLeaveNoTrace)
   {
     HierarchyOptions options = square.options;
     options.guides = guides;
-    ASSERT_TRUE(levels.allows(options));
     options.threads = 1;
     const Hierarchy anew = buildHierarchy(square.mesh, 1, options);
     EXPECT_EQ(anew.coarse.fineFace, coarse);

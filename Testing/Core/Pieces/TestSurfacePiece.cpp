@@ -286,7 +286,7 @@ TEST(SurfacePiece, PlacesComeBackWhereTheyWere)
   for (std::size_t p = 0; p < 2; ++p)
   {
     const PieceLevel& level = spread.levels[p];
-    std::vector<PiecePlace> places;
+    std::vector<SurfacePoint> places;
     std::vector<Vector3> before;
     std::vector<bool> isCorner;
     for (Index t = 0; t < level.triangles.size(); ++t)
@@ -328,7 +328,7 @@ TEST(SurfacePiece, WhatIsCarriedCoversTheSurfaceOnce)
   Spread spread = thinPieces(whole, 1, [](const Vector3&, Index) { return 0U; }, 0.3, {});
   constexpr int kSteps = 8;
   const PieceLevel& level = spread.levels[0];
-  std::vector<PiecePlace> places;
+  std::vector<SurfacePoint> places;
   for (Index t = 0; t < level.triangles.size(); ++t)
   {
     for (int i = 0; i <= kSteps; ++i)
@@ -385,7 +385,7 @@ TEST(SurfacePiece, TheSameForAnyNumberOfThreads)
   for (std::size_t p = 0; p < 2; ++p)
   {
     ASSERT_EQ(one.levels[p].triangles, four.levels[p].triangles);
-    std::vector<PiecePlace> places;
+    std::vector<SurfacePoint> places;
     for (Index t = 0; t < one.levels[p].triangles.size(); ++t)
     {
       places.push_back({ t, { 0.5, 0.3, 0.2 } });
@@ -415,7 +415,7 @@ TEST(SurfacePiece, QuadsOfAllPieces)
   const RemeshResult made = remesh(spread.joined.surface, options);
   ASSERT_TRUE(made.status.ok()) << made.status.message;
   EXPECT_NEAR(static_cast<double>(made.quads.quads.size()), 600, 120);
-  std::vector<std::vector<PiecePlace>> places(4);
+  std::vector<std::vector<SurfacePoint>> places(4);
   for (std::size_t v = 0; v < made.quads.points.size(); ++v)
   {
     const SourceLocation at =
@@ -423,7 +423,7 @@ TEST(SurfacePiece, QuadsOfAllPieces)
     const auto& first = spread.joined.firstTriangle;
     const auto piece = static_cast<std::size_t>(
       std::upper_bound(first.begin(), first.end(), at.polygon) - first.begin() - 1);
-    PiecePlace place{ at.polygon - first[piece], {} };
+    SurfacePoint place{ at.polygon - first[piece], {} };
     for (std::size_t k = 0; k < 3; ++k)
     {
       // The corners of the triangle in the order of the piece.
@@ -481,7 +481,7 @@ TEST(SurfacePiece, PlacesWhereAHandleWasAreTold)
 {
   const Vector3 place = Vector3(1, 0.2, 0.3).normalized();
   Spread cut = piecesWithHandle(place, 0.4);
-  std::vector<PiecePlace> places;
+  std::vector<SurfacePoint> places;
   constexpr int kSteps = 12;
   const PieceLevel& level = cut.levels[1];
   for (Index t = 0; t < level.triangles.size(); ++t)

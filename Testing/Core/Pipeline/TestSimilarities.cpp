@@ -6,6 +6,7 @@
 #include "TestMeshes.h"
 
 #include "Pipeline/Pipeline.h"
+#include "Requests/SurfacePlaces.h"
 
 #include <gtest/gtest.h>
 
@@ -53,18 +54,6 @@ RemeshResult quadsOf(const SurfaceInput& input, double quads)
   options.threads = 2;
   options.mergeCharts = true;
   return remesh(input, options);
-}
-
-double diagonalOf(const std::vector<Vector3>& points)
-{
-  Vector3 low = points.front();
-  Vector3 high = low;
-  for (const Vector3& p : points)
-  {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).norm();
 }
 
 SurfaceInput moved(SurfaceInput input, const Move& move, bool reverse)

@@ -10,6 +10,7 @@
 #include "Mesh/Topology.h"
 #include "Prepare/Prepare.h"
 #include "Prepare/Refine.h"
+#include "Requests/SurfacePlaces.h"
 
 #include <gtest/gtest.h>
 
@@ -27,18 +28,6 @@ SurfaceInput model(const char* name)
   const auto input = test::loadPly(std::string(QUADRILLE_DATA) + "/" + name);
   EXPECT_TRUE(input.has_value()) << name;
   return input.value_or(SurfaceInput{});
-}
-
-double diagonalOf(const std::vector<Vector3>& points)
-{
-  Vector3 low = points.front();
-  Vector3 high = low;
-  for (const Vector3& p : points)
-  {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).norm();
 }
 
 SurfaceInput moved(SurfaceInput input, const std::function<Vector3(const Vector3&)>& move)

@@ -37,12 +37,12 @@ struct Thinned
     }
   }
 
-  std::vector<FacePlace> carry(int threads) const
+  std::vector<SurfacePoint> carry(int threads) const
   {
     return carryPlaces(made.intermediate, made.log, made.log.rounds.size(), places, threads, {});
   }
 
-  static Vector3 placeOn(const Mesh& mesh, const FacePlace& at)
+  static Vector3 placeOn(const Mesh& mesh, const SurfacePoint& at)
   {
     Vector3 place = Vector3::Zero();
     for (Index k = 0; k < 3; ++k)
@@ -54,12 +54,12 @@ struct Thinned
 
   Mesh fine;
   Hierarchy made;
-  std::vector<FacePlace> places;
+  std::vector<SurfacePoint> places;
 };
 
-void expectWeights(const std::vector<FacePlace>& carried, const Mesh& fine)
+void expectWeights(const std::vector<SurfacePoint>& carried, const Mesh& fine)
 {
-  for (const FacePlace& place : carried)
+  for (const SurfacePoint& place : carried)
   {
     ASSERT_LT(place.face, fine.faceCount());
     EXPECT_GE(*std::min_element(place.weights.begin(), place.weights.end()), 0);
@@ -72,7 +72,7 @@ TEST(CarriedPlaces, PointsOfAPlaneStay)
 {
   Thinned thinned(gridPlane(60, 60), 4);
   ASSERT_LT(2 * thinned.made.intermediate.mesh.faceCount(), thinned.fine.faceCount());
-  const std::vector<FacePlace> carried = thinned.carry(1);
+  const std::vector<SurfacePoint> carried = thinned.carry(1);
   expectWeights(carried, thinned.fine);
   for (std::size_t i = 0; i < carried.size(); ++i)
   {
@@ -85,7 +85,7 @@ TEST(CarriedPlaces, PointsOfAPlaneStay)
 TEST(CarriedPlaces, VerticesOfTheLevelAreThoseOfTheSurface)
 {
   Thinned thinned(torus(120, 60, 2, 1), 0.3);
-  const std::vector<FacePlace> carried = thinned.carry(1);
+  const std::vector<SurfacePoint> carried = thinned.carry(1);
   expectWeights(carried, thinned.fine);
   const Mesh& level = thinned.made.intermediate.mesh;
   for (std::size_t i = 2; i < carried.size(); i += 3)
@@ -99,8 +99,8 @@ TEST(CarriedPlaces, VerticesOfTheLevelAreThoseOfTheSurface)
 TEST(CarriedPlaces, TheSameForAnyNumberOfThreads)
 {
   Thinned thinned(torus(300, 150, 2, 1), 0.1);
-  const std::vector<FacePlace> one = thinned.carry(1);
-  const std::vector<FacePlace> four = thinned.carry(4);
+  const std::vector<SurfacePoint> one = thinned.carry(1);
+  const std::vector<SurfacePoint> four = thinned.carry(4);
   ASSERT_EQ(one.size(), four.size());
   for (std::size_t i = 0; i < one.size(); ++i)
   {
