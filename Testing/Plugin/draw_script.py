@@ -16,7 +16,7 @@ from vtkmodules.vtkFiltersCore import vtkCutter, vtkStripper
 
 import places_script  # whose questions are answered, too
 import window_answers
-from places_script import edge_length, is_clear, output, pixel_of, quads, seen_at, view
+from places_script import edge_length, is_clear, is_made, output, pixel_of, quads, seen_at, view
 
 
 COVERED = 200  # pixels at the lower end of the view, where the window Output Messages may lie
@@ -159,10 +159,11 @@ def irregular_within(place, radius):
 
 
 def free_balls():
-    """Irregular vertices of the quads that are on no feature and no boundary."""
+    """Irregular vertices that are coloured, as moves take them, and are on no feature and no boundary of the quads."""
     data, lines = output(4), output(2)
+    movable = data.GetPointData().GetArray("MovableValence")
     on_lines = {lines.GetPoint(i) for i in range(lines.GetNumberOfPoints())}
-    return {data.GetPoint(i) for i in range(data.GetNumberOfPoints())} - on_lines
+    return {data.GetPoint(i) for i in range(data.GetNumberOfPoints()) if movable.GetTuple1(i) != 0} - on_lines
 
 
 def size_within(place, radius):
@@ -249,6 +250,33 @@ def last_row(kind):
     if not rows:
         return None
     return table.GetValueByName(rows[-1], "Met").ToInt(), table.GetValueByName(rows[-1], "Reason").ToString()
+
+
+def last_remark(kind):
+    """Of the last row of a kind; None where there is none."""
+    table = output(6)
+    rows = [r for r in range(table.GetNumberOfRows()) if table.GetValueByName(r, "Kind").ToString() == kind]
+    return table.GetValueByName(rows[-1], "Remark").ToString() if rows else None
+
+
+def input_arrays():
+    """Points, and the corners of each triangle of the surface that was given."""
+    data = window_answers.data_of(quads().Input)
+    points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+    return points, vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+
+
+def count_pictures():
+    """From now on, in a list that grows by one with each picture of the view; a selection's are not shown."""
+    found = []
+    window = view.GetRenderWindow()
+
+    def note(*_):
+        if window.GetSwapBuffers():
+            found.append(is_made())
+
+    window.AddObserver("EndEvent", note)
+    return found
 
 
 def steps():
