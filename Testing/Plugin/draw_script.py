@@ -16,7 +16,7 @@ from vtkmodules.vtkFiltersCore import vtkCutter, vtkStripper
 
 import places_script  # whose questions are answered, too
 import window_answers
-from places_script import edge_length, is_clear, is_made, output, pixel_of, quads, seen_at, view
+from places_script import edge_length, is_clear, output, pixel_of, quads, seen_at, view
 
 
 COVERED = 200  # pixels at the lower end of the view, where the window Output Messages may lie
@@ -266,17 +266,23 @@ def input_arrays():
     return points, vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
 
 
-def count_pictures():
-    """From now on, in a list that grows by one with each picture of the view; a selection's are not shown."""
-    found = []
-    window = view.GetRenderWindow()
+pictures = []  # of the view, since watch_pictures()
 
-    def note(*_):
-        if window.GetSwapBuffers():
-            found.append(is_made())
 
-    window.AddObserver("EndEvent", note)
-    return found
+def note_picture(window, _):
+    if window.GetSwapBuffers():  # that of a selection is not shown
+        pictures.append(True)
+
+
+def watch_pictures():
+    """From now on they are counted; returns what ignore_pictures() takes."""
+    pictures.clear()
+    return view.GetRenderWindow().AddObserver("EndEvent", note_picture)
+
+
+def ignore_pictures(watched):
+    view.GetRenderWindow().RemoveObserver(watched)
+    return len(pictures)
 
 
 def steps():
