@@ -248,8 +248,9 @@ def walk(session, options, writer):
             steps.append(step)
             stills += session.stills
             worst = max(session.stills, default=(0, 0))
+            marks = ("" if step.is_true() else "  UNTRUE") + ("" if step.is_good() else "  BAD")
             print(f"{name} {number + 1}: {step.off:.3f} off, met {step.met}; {step.text}; still {worst[0]:.2f}/"
-                  f"{worst[1]:.2f}{'' if step.is_true() else '  UNTRUE'}{'' if step.is_good() else '  BAD'}", flush=True)
+                  f"{worst[1]:.2f}{marks}", flush=True)
             if number < 1 or not step.is_good():
                 session.shot(f"walk-{session.surface.stem}-{name.lower()}-{number + 1}")
         session.xdotool("key", "Escape")

@@ -3,6 +3,7 @@
 /// Operations on irregular vertices, found again in the quads.
 #include "SessionHelpers.h"
 
+#include "Mesh/Distance.h"
 #include "Base/PlaceText.h"
 #include "Mesh/Requests.h"
 #include "PlyFile.h"
@@ -326,6 +327,29 @@ TEST_F(IrregularEditsOnAPart, AllOthersStay)
     EXPECT_EQ(there[i].point, onFeatures[i].point);
     EXPECT_EQ(there[i].place, onFeatures[i].place);
     ASSERT_EQ(there[i].sectors.size(), onFeatures[i].sectors.size());
+  }
+}
+
+/// A chain of edges that ends on a feature ends in the middle of its quads.
+TEST_F(IrregularEditsOnAPart, AConnectionAfterAMoveLeavesTheWordOnThat)
+{
+  const Vector3 aside = from_.place * 0.85 + Vector3(0, 0, 0.15 * kUpperSide);
+  session_->add(IrregularEdit{ IrregularOperation::Move, { from_.place, aside }, {}, {}, {}, {} });
+  session_->update();
+  Vector3 onRim = aside;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::array<Vector3, 2>& edge : session_->result()->fixed.edges)
+  {
+    const Vector3 place = nearestOnSegment(aside, edge[0], edge[1]);
+    onRim = (place - aside).norm() < least ? place : onRim;
+    least = std::min(least, (place - aside).norm());
+  }
+  session_->add(Connection{ { aside, onRim } });
+  const SessionReport& report = session_->update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  for (const ConstraintReport& word : report.constraints)
+  {
+    EXPECT_TRUE(word.isMet) << word.text << ": " << word.reason;
   }
 }
 
