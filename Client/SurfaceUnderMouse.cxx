@@ -65,6 +65,7 @@ Seen seenIn(
 {
   vtkNew<vtkCollection> drawn;
   vtkNew<vtkCollection> selections;
+  drawIfOld(view);
   view->SelectSurfaceCells(rectangle.data(), drawn, selections, true);
   Seen seen;
   for (int i = 0; i < drawn->GetNumberOfItems() && i < selections->GetNumberOfItems(); ++i)
@@ -122,10 +123,19 @@ std::vector<double> hitsOf(const std::vector<double>& rays, vtkSMProxy* places)
 
 } // namespace
 
+void drawIfOld(vtkSMViewProxy* view)
+{
+  if (view->GetNeedsUpdate())
+  {
+    view->StillRender();
+  }
+}
+
 vtkSMSourceProxy* sourceUnder(vtkSMRenderViewProxy* view, const Pixel& pixel)
 {
   const pqScopedUndoExclude noStepOfTheUser;
   const auto [x, y] = rounded(pixel);
+  drawIfOld(view);
   return sourceOf(view->Pick(x, y));
 }
 

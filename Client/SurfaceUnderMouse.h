@@ -14,9 +14,15 @@
 class vtkSMProxy;
 class vtkSMRenderViewProxy;
 class vtkSMSourceProxy;
+class vtkSMViewProxy;
 
 namespace quadrille
 {
+
+/// Draws the view before something is selected in it, unless it is drawn: where a filter has been executed, and the
+/// view not been drawn since, a selection of ParaView 5.11 finds nothing, and neither do those after it. The selections
+/// below do so themselves.
+void drawIfOld(vtkSMViewProxy* view);
 
 /// What is drawn at the pixel: the source whose output it is; null where it is nothing.
 vtkSMSourceProxy* sourceUnder(vtkSMRenderViewProxy* view, const Pixel& pixel);

@@ -715,8 +715,6 @@ void pqQuadrilleDrawing::finishMove(vtkSMSourceProxy* filter)
     return;
   }
   const std::optional<Place> to = this->placeOfBall();
-  // A preview may have been begun since, and a selection would find nothing.
-  this->View->forceRender();
   if (!to || quadrille::sourceUnder(this->viewProxy(), this->Path.back()) != this->Surface)
   {
     say("The ball was dropped beside the surface: it stays where it was.");

@@ -3,6 +3,7 @@
 #include "pqQuadrilleRun.h"
 
 #include "InvokeOnObject.h"
+#include "SurfaceUnderMouse.h"
 #include "Word.h"
 
 #include "pqActiveObjects.h"
@@ -60,29 +61,25 @@ void updateObject(vtkSMSourceProxy* filter)
   invoke(filter, "Update");
 }
 
-/// Also before anything is selected: where a filter has been executed, and the view not been drawn since, a selection
-/// of ParaView 5.11 finds nothing, and neither do those after it.
-void renderActive()
-{
-  if (pqView* view = pqActiveObjects::instance().activeView())
-  {
-    view->forceRender();
-  }
-}
-
 /// Without the smoothing of edges, which takes two thirds of the time of a picture where no card draws it.
 void renderActiveQuickly()
 {
   pqView* active = pqActiveObjects::instance().activeView();
-  vtkSMViewProxy* view = active ? active->getViewProxy() : nullptr;
-  if (!view || !view->GetProperty("UseFXAA"))
+  if (!active)
   {
-    renderActive();
     return;
   }
-  invoke(view, "SetUseFXAA", 0);
+  vtkSMViewProxy* view = active->getViewProxy();
+  const bool hasSmoothing = view->GetProperty("UseFXAA") != nullptr;
+  if (hasSmoothing)
+  {
+    invoke(view, "SetUseFXAA", 0);
+  }
   active->forceRender();
-  invoke(view, "SetUseFXAA", vtkSMPropertyHelper(view, "UseFXAA").GetAsInt());
+  if (hasSmoothing)
+  {
+    invoke(view, "SetUseFXAA", vtkSMPropertyHelper(view, "UseFXAA").GetAsInt());
+  }
 }
 
 } // namespace
@@ -163,7 +160,15 @@ void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
   this->Filter = filter;
   this->Waiting.push_back(std::move(then));
   prepare(filter);
-  this->IsTold ? update(filter) : updateObject(filter);
+  if (this->IsTold)
+  {
+    update(filter);
+  }
+  else
+  {
+    updateObject(filter);
+    filter->MarkModified(filter); // its representations
+  }
   if (ask(filter, "GetIsUnderway") == 0)
   {
     this->show();
@@ -171,8 +176,8 @@ void pqQuadrilleRun::execute(vtkSMSourceProxy* filter, Then then)
   }
   if (this->IsTold)
   {
-    this->holdSaving();
-    renderActive(); // something can be drawn meanwhile
+    this
+      ->holdSaving(); // the picture stays as it is, and is not drawn until somebody asks what is in it
   }
   if (!this->Timer.isActive())
   {
@@ -203,12 +208,12 @@ void pqQuadrilleRun::look()
 void pqQuadrilleRun::show()
 {
   vtkSMSourceProxy* filter = this->Filter;
+  const bool isWhole = this->IsTold;
   invoke(filter, "TakeUnderway");
-  if (this->IsTold)
+  if (isWhole)
   {
     update(filter);
     this->end(End::Shown);
-    renderActive();
   }
   else
   {
@@ -220,9 +225,9 @@ void pqQuadrilleRun::show()
   pqView* active = pqActiveObjects::instance().activeView();
   for (pqView* view : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqView*>())
   {
-    if (view != active)
+    if (isWhole || view != active)
     {
-      view->render();
+      view->render(); // events that came meanwhile are taken up before
     }
   }
 }
@@ -291,6 +296,11 @@ void pqQuadrilleRun::end(End how)
 //-----------------------------------------------------------------------------
 bool pqQuadrilleRun::eventFilter(QObject* watched, QEvent* event)
 {
+  pqView* view = pqActiveObjects::instance().activeView();
+  if (event->type() == QEvent::MouseButtonPress && view)
+  {
+    quadrille::drawIfOld(view->getViewProxy()); // ParaView's own tools select, too
+  }
   if (!this->IsTold ||
     (event->type() != QEvent::KeyPress && event->type() != QEvent::ShortcutOverride))
   {

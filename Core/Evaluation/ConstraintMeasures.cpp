@@ -439,6 +439,12 @@ ConstraintMeasure ConstraintMeasures::move(const PlacedConstraint& constraint)
     there.place = from;
     there.reason = "it is at its new place, but where it was another irregular vertex is left";
   }
+  if (constraint.otherChange)
+  {
+    there.place = there.isMet ? constraint.otherChange->place : there.place;
+    there.reason += (there.isMet ? "" : "; ") + constraint.otherChange->text;
+    there.isMet = false;
+  }
   return there;
 }
 

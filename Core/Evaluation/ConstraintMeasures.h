@@ -111,7 +111,8 @@ public:
   /// brings some nearer; one of another valence only there.
   ConstraintMeasure changedValence(
     const Vector3& place, int asked, const std::vector<ValencePlace>* irregular);
-  /// The same of a vertex that was moved: at its new place, and at its old one.
+  /// The same of a vertex that was moved: at its new place, and at its old one; of the last move also that all others
+  /// are where they were.
   ConstraintMeasure move(const PlacedConstraint& constraint);
   /// "edge lengths": of a connection or cycle, met where there is a straight chain of edges within kMetLine of it, of a
   /// cycle a closed one: the largest distance from the chain to the line or back. outcomes: see AskedConstraints, for

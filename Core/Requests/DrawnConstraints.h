@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,13 @@ enum class ConstraintKind
 /// What arrays and messages call it.
 const char* nameOf(ConstraintKind kind);
 
+/// That the quads with moves have irregular vertices otherwise than those without, where no move asks for it.
+struct OtherChange
+{
+  Vector3 place = Vector3::Zero(); ///< one of those
+  std::string text;                ///< of all, the end of a sentence
+};
+
 /// Where a constraint lies on the surface.
 struct PlacedConstraint
 {
@@ -52,6 +60,7 @@ struct PlacedConstraint
   /// Of moves: the irregular vertices that the quads are to have with all moves, on features and boundaries too, where
   /// the quads without them show the others; null: not known.
   std::shared_ptr<const std::vector<ValencePlace>> irregular;
+  std::optional<OtherChange> otherChange; ///< of the last move that is done; none: there is none
 };
 
 struct PlacedConstraints

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/ConstraintReports.h"
 
-#include "Base/PlaceText.h"
 #include "Evaluation/ConstraintMeasures.h"
-#include "Mesh/NearestTriangle.h"
-#include "Quads/QuadSmoothing.h"
 #include "Session/IrregularMatch.h"
+#include "Session/OtherChanges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,16 +26,6 @@ bool asksForSize(const ConstraintContent& content)
   return std::holds_alternative<SizeAt>(content) || std::holds_alternative<SizeRegion>(content);
 }
 
-TriangleList trianglesOf(const FixedPlaces& fixed)
-{
-  TriangleList list;
-  for (const std::array<Vector3, 3>& triangle : fixed.withoutMap)
-  {
-    list.add(triangle[0], triangle[1], triangle[2]);
-  }
-  return list;
-}
-
 class SessionJudge
 {
 public:
@@ -49,13 +37,9 @@ public:
       madeEdgeLength_(lengthOfSizeOne(made.targetEdgeLength,
         isOfNumber ? std::optional<std::size_t>(result.targetQuads) : std::nullopt,
         made.quads.quads.size())),
-      symmetric_(symmetric), measures_(made.quads)
+      symmetric_(symmetric), measures_(made.quads),
+      withoutMap_(result.fixed, result.targetEdgeLength)
   {
-    if (!result.fixed.withoutMap.empty())
-    {
-      withoutMap_.emplace(trianglesOf(result.fixed));
-      onWithoutMap_ = kOnePlace * result.targetEdgeLength;
-    }
     if (composed.shown)
     {
       irregular_ = expectedIrregular(*composed.shown, isometryOf(symmetric));
@@ -112,17 +96,10 @@ public:
 private:
   ConstraintMeasure judgeSymmetry(const char* unlike) const;
   ConstraintMeasure irregularEdit();
-  std::vector<Vector3> otherChanges();
+  std::vector<Vector3> otherChanged();
   std::string whoCounts(const std::vector<WeightedPlace>& places, bool isSize);
   using Cover = std::function<bool(const Vector3&)>;
   Cover coverOf(std::size_t i);
-  /// Whether the quads there fill a face without a map: no operation says what they are, and its boundary is shared.
-  bool isWithoutMap(const Vector3& place) const
-  {
-    return withoutMap_ && withoutMap_->at(place, Vector3::Zero(), onWithoutMap_);
-  }
-  /// Within which an irregular point is where it was.
-  double reachAt(const Vector3& place) { return kReachOfSmoothing * measures_.edgeLengthAt(place); }
 
   ConstraintMeasure measureOf(const SessionConstraint& constraint)
   {
@@ -181,8 +158,7 @@ private:
   const SymmetricResult* symmetric_; ///< null: the quads were not made so
   ConstraintMeasures measures_;
   std::optional<std::vector<ValencePlace>> irregular_;
-  std::optional<NearestTriangle> withoutMap_; ///< faces that have none
-  double onWithoutMap_ = 0;                   ///< so near places lie on these
+  FacesWithoutMap withoutMap_;
   std::size_t mostPlaces_ = 0;
   const PlacedPart* part_ = nullptr;
   std::size_t at_ = 0; ///< of the constraint
@@ -218,15 +194,12 @@ ConstraintMeasure SessionJudge::irregularEdit()
   if (constraints_[at_]->id == composed_.lastOperation && symmetric_ == nullptr &&
     composed_.input.regularElsewhere && composed_.shown)
   {
-    const std::vector<Vector3> others = otherChanges();
+    const std::vector<Vector3> others = otherChanged();
     if (!others.empty())
     {
       measure.place = measure.isMet ? others.front() : measure.place;
-      measure.reason += (measure.isMet ? "" : "; ") + std::to_string(others.size()) +
-        " other irregular vertices are not as they were, one at " + placeText(others.front()) +
-        (composed_.whyNotHeld.empty()
-            ? ": choose places with more room between features and other irregular vertices"
-            : ", as those on features and boundaries could not be held: " + composed_.whyNotHeld);
+      measure.reason +=
+        (measure.isMet ? "" : "; ") + otherChangesText(others, composed_.whyNotHeld);
       measure.isMet = false;
     }
   }
@@ -234,67 +207,27 @@ ConstraintMeasure SessionJudge::irregularEdit()
 }
 
 /// Places where irregular points of the quads came, went or moved though no constraint asks for it.
-std::vector<Vector3> SessionJudge::otherChanges()
+std::vector<Vector3> SessionJudge::otherChanged()
 {
-  const auto isNear = [](const std::vector<Vector3>& all, const Vector3& p, double distance)
-  {
-    return std::any_of(
-      all.begin(), all.end(), [&](const Vector3& q) { return (p - q).norm() <= distance; });
-  };
-  std::vector<Vector3> told;   // of vertices with a word of their own
-  std::vector<Vector3> failed; // where that says what is there instead
-  std::vector<Vector3> drawn;  // features that came later: these have ends, and corners with others
+  JudgedElsewhere judged = judgedOf(composed_.parts, measures_, irregular());
   bool isLater = false;
   for (std::size_t i = 0; i < constraints_.size(); ++i)
   {
     const PlacedPart& part = composed_.parts[i];
+    const ConstraintContent& content = constraints_[i]->content;
     isLater = isLater || constraints_[i]->id == composed_.lastOperation;
-    if (isLater && std::holds_alternative<FeatureLine>(constraints_[i]->content))
+    if (isLater &&
+      (std::holds_alternative<FeatureLine>(content) ||
+        std::holds_alternative<Connection>(content) || std::holds_alternative<Cycle>(content)))
     {
-      drawn.insert(drawn.end(), part.path.begin(), part.path.end());
+      judged.drawn.insert(judged.drawn.end(), part.path.begin(), part.path.end());
     }
-    for (const auto& [place, valence] : part.valences)
+    if (std::holds_alternative<ValenceAt>(content))
     {
-      told.push_back(place);
-      if (!measures_.changedValence(place, valence, irregular()).isMet)
-      {
-        failed.push_back(place);
-      }
-    }
-    if (std::holds_alternative<ValenceAt>(constraints_[i]->content))
-    {
-      told.push_back(part.place);
+      judged.told.push_back(part.place);
     }
   }
-  const std::vector<IrregularVertex>& expected = *composed_.shown;
-  std::vector<double> reach;
-  reach.reserve(expected.size());
-  for (const IrregularVertex& vertex : expected)
-  {
-    reach.push_back(reachAt(vertex.place));
-  }
-  const std::vector<IrregularVertex> actual = irregularPoints(quads_);
-  const IrregularMatch match = matchIrregular(expected, actual, reach);
-  std::vector<Vector3> places;
-  for (std::size_t i = 0; i < expected.size(); ++i)
-  {
-    const Vector3& place = expected[i].place;
-    if (!match.actual[i] && !isNear(told, place, 0) && !isNear(drawn, place, reach[i]) &&
-      !isWithoutMap(place))
-    {
-      places.push_back(place);
-    }
-  }
-  for (const std::size_t k : match.unexpected)
-  {
-    const Vector3& place = actual[k].place;
-    if (!isNear(failed, place, reachAt(place)) && !isNear(drawn, place, reachAt(place)) &&
-      !isWithoutMap(place))
-    {
-      places.push_back(place);
-    }
-  }
-  return places;
+  return otherChanges(*composed_.shown, quads_, measures_, judged, withoutMap_);
 }
 
 /// Connectivity is symmetric whenever there are quads, so that it is the surface that deviates; where its two sides

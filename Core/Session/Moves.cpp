@@ -3,11 +3,13 @@
 #include "Session/Moves.h"
 
 #include "Base/Error.h"
+#include "Evaluation/ConstraintMeasures.h"
 #include "Mesh/ContentHash.h"
 #include "Pipeline/RequestKeys.h"
 #include "Session/ComposedInput.h"
 #include "Session/IrregularEdits.h"
 #include "Session/IrregularMatch.h"
+#include "Session/OtherChanges.h"
 #include "Session/SessionText.h"
 
 #include <algorithm>
@@ -214,6 +216,25 @@ void tellIrregular(const std::optional<std::vector<IrregularVertex>>& shown,
   }
 }
 
+/// To the last move that is done, what else has changed. Which those are on each side of a symmetry is not known.
+void tellOtherChange(const ComposedInput& composed, const UncutResult& made,
+  const QuadsBefore& before, PlacedConstraint& move)
+{
+  if (!composed.shown || isometryOf(&made))
+  {
+    return;
+  }
+  const QuadMesh& quads = made.remeshed.quads;
+  ConstraintMeasures measures(quads);
+  const std::vector<Vector3> places = otherChanges(*composed.shown, quads, measures,
+    judgedOf(composed.parts, measures, move.irregular.get()),
+    FacesWithoutMap(before.fixed, before.edgeLength));
+  if (!places.empty())
+  {
+    move.otherChange = { places.front(), otherChangesText(places, composed.whyNotHeld) };
+  }
+}
+
 /// Connections stay what they are: their ends are in no list of irregular vertices.
 SurfaceInput withEnds(SurfaceInput input, const std::vector<CurveOutcome>& curves)
 {
@@ -246,7 +267,9 @@ UncutResult makeMoves(const SurfaceInput& input, const RemeshOptions& options, c
   {
     ComposedInput composed =
       composeInput(input, where, lines, list.constraints(), leftOut, whyNotHeld.empty());
+    composed.whyNotHeld = whyNotHeld;
     const bool isHeld = composed.input.regularOnFeatures;
+    const bool areOthersHeld = composed.input.regularElsewhere;
     composed.input.points = input.points;
     composed.input.polygonOffsets = input.polygonOffsets;
     composed.input.polygonPoints = input.polygonPoints;
@@ -274,6 +297,10 @@ UncutResult makeMoves(const SurfaceInput& input, const RemeshOptions& options, c
           whyNotHeld);
       }
       tellIrregular(composed.shown, made, placed);
+      if (last && areOthersHeld && made.remeshed.status.ok() && !options.preview)
+      {
+        tellOtherChange(composed, made, before, placed[static_cast<std::size_t>(*last) - 1]);
+      }
       tellLeftOut(placed, notices);
       return made;
     }

@@ -159,10 +159,11 @@ def irregular_within(place, radius):
 
 
 def free_balls():
-    """Irregular vertices of the quads that are on no feature and no boundary."""
+    """Irregular vertices that are coloured, as moves take them, and are on no feature and no boundary of the quads."""
     data, lines = output(4), output(2)
+    movable = data.GetPointData().GetArray("MovableValence")
     on_lines = {lines.GetPoint(i) for i in range(lines.GetNumberOfPoints())}
-    return {data.GetPoint(i) for i in range(data.GetNumberOfPoints())} - on_lines
+    return {data.GetPoint(i) for i in range(data.GetNumberOfPoints()) if movable.GetTuple1(i) != 0} - on_lines
 
 
 def size_within(place, radius):
@@ -249,6 +250,39 @@ def last_row(kind):
     if not rows:
         return None
     return table.GetValueByName(rows[-1], "Met").ToInt(), table.GetValueByName(rows[-1], "Reason").ToString()
+
+
+def last_remark(kind):
+    """Of the last row of a kind; None where there is none."""
+    table = output(6)
+    rows = [r for r in range(table.GetNumberOfRows()) if table.GetValueByName(r, "Kind").ToString() == kind]
+    return table.GetValueByName(rows[-1], "Remark").ToString() if rows else None
+
+
+def input_arrays():
+    """Points, and the corners of each triangle of the surface that was given."""
+    data = window_answers.data_of(quads().Input)
+    points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+    return points, vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+
+
+pictures = []  # of the view, since watch_pictures()
+
+
+def note_picture(window, _):
+    if window.GetSwapBuffers():  # that of a selection is not shown
+        pictures.append(True)
+
+
+def watch_pictures():
+    """From now on they are counted; returns what ignore_pictures() takes."""
+    pictures.clear()
+    return view.GetRenderWindow().AddObserver("EndEvent", note_picture)
+
+
+def ignore_pictures(watched):
+    view.GetRenderWindow().RemoveObserver(watched)
+    return len(pictures)
 
 
 def steps():

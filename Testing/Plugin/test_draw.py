@@ -244,10 +244,12 @@ def size(session, chance):
     return Outcome(off, met, is_true, f"{count} quads {share:.2f} times as long as asked for; {reason}")
 
 
-def visible_balls(session, chance, least):
-    """In a view that shows so many."""
+def visible_balls(session, chance, least, only_free=False):
+    """In a view that shows so many; only_free: those that can be moved."""
     for _ in range(40):
         balls = session.balls()
+        free = session.value("free_balls()") if only_free and balls else set()
+        balls = [b for b in balls if b[1] in free] if only_free else balls
         if len(balls) >= least:
             return balls
         test_places.random_view(session, chance)
@@ -255,7 +257,7 @@ def visible_balls(session, chance, least):
 
 
 def move(session, chance):
-    ball = chance.choice(visible_balls(session, chance, 1))
+    ball = chance.choice(visible_balls(session, chance, 1, True))
     before = session.value(f"valence_at({tuple(ball[1])!r})")
     places = [p for p in session.places(chance, 6)
               if session.edge < math.dist(p[1], ball[1]) < 5 * session.edge] or session.places(chance, 1)
@@ -287,7 +289,7 @@ def moved(session, drawn, ball, goal, wanted, beside):
 def merge(session, chance):
     """A ball is dropped on one of another place: the two become one, or none."""
     for _ in range(40):
-        balls = [b for b in visible_balls(session, chance, 2) if b[1] in session.value("free_balls()")]
+        balls = visible_balls(session, chance, 2, True)
         pairs = sorted((math.dist(a[1], b[1]), i, j) for i, a in enumerate(balls) for j, b in enumerate(balls)
                        if math.dist(a[1], b[1]) > 1.5 * session.edge)
         if pairs:
@@ -685,6 +687,31 @@ def check_stop(session, chance):
     return bad
 
 
+def check_pictures(session, chance):
+    """What begins quads draws no picture, which would be the one that there is; ParaView selects quads meanwhile."""
+    session.ask("clear()")
+    session.look(270, 20)
+    session.take("Valence")
+    places = [session.screen(p[0]) for p in session.places(chance, 3)]
+    session.xdotool("mousemove", *places[1], "sleep", 0.2, "click", 1)
+    session.settle()  # with the first constraint ParaView moves rows of its pipeline, and draws the view for that
+    session.ask(f"simple.ClearSelection(quads()); quads().NumberOfQuads = {BUSY}; simple.Render(view)", seconds=120)
+    x, y = places[2]  # not one of other checks, which are remembered
+    session.xdotool("mousemove", x, y, "sleep", 0.2, "mousedown", 1)
+    session.ask("watched = watch_pictures()")
+    session.xdotool("mouseup", 1)
+    drawn, underway = session.value("(ignore_pictures(watched), not is_made())")
+    session.take("Valence")  # leaves it
+    session.xdotool("mousemove", x - 20, y - 20, "key", "s", "sleep", 0.1, "mousedown", 1, "sleep", 0.1, "mousemove",
+                    x + 20, y + 20, "sleep", 0.1, "mouseup", 1)
+    selected, meanwhile = session.value("(quads().SMProxy.GetSelectionInput(0) is not None, not is_made())")
+    session.settle()
+    session.ask("simple.ClearSelection(quads())")
+    print(f"pictures before quads are made ({underway}): {drawn}, selected meanwhile ({meanwhile}) {selected}",
+          flush=True)
+    return not (underway and drawn == 0 and meanwhile and selected)
+
+
 def save_dialogs(session, least, *actions):
     """How many windows Ctrl+S after the actions has opened once the window is idle, or there are so many; closed again.
     """
@@ -794,9 +821,9 @@ CHECKS = {"escape": lambda s, c, _: check_escape(s, c), "camera": lambda s, c, _
           "strokes": lambda s, c, n: test_places.check_strokes(s, c, 2 * n),
           "selection": lambda s, c, _: test_places.check_selection(s, c),
           "words": lambda s, c, _: check_words(s, c), "labels": lambda s, c, _: check_labels(s),
-          "number": lambda s, c, _: check_number(s), "stop": lambda s, c, _: check_stop(s, c),
-          "save": lambda s, c, _: check_save(s, c), "delete": lambda s, c, _: check_delete(s, c),
-          "close": lambda s, c, _: check_close(s)}
+          "number": lambda s, c, _: check_number(s), "pictures": lambda s, c, _: check_pictures(s, c),
+          "stop": lambda s, c, _: check_stop(s, c), "save": lambda s, c, _: check_save(s, c),
+          "delete": lambda s, c, _: check_delete(s, c), "close": lambda s, c, _: check_close(s)}
 
 
 def main():

@@ -329,6 +329,22 @@ TEST_F(IrregularEditsOnAPart, AllOthersStay)
   }
 }
 
+/// Where a line crosses features there are corners, which the word on a move before it does not count as changes.
+TEST_F(IrregularEditsOnAPart, AConnectionAfterAMoveLeavesTheWordOnThat)
+{
+  const Vector3 from(-51.294, -26.9205, kUpperSide), to(-42.6415, -22.6414, kUpperSide);
+  session_->add(IrregularEdit{ IrregularOperation::Move, { from, to }, {}, {}, {}, {} });
+  session_->update();
+  session_->add(
+    Connection{ { Vector3(51.2822, -28.9554, kUpperSide), Vector3(-10.5105, 7.00702, 0) } });
+  const SessionReport& report = session_->update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  for (const ConstraintReport& word : report.constraints)
+  {
+    EXPECT_TRUE(word.isMet) << word.text << ": " << word.reason;
+  }
+}
+
 /// Where a vertex of a feature looks irregular the nearest one inside is not what is meant.
 TEST_F(IrregularEditsOnAPart, VerticesOfFeaturesDoNotMove)
 {

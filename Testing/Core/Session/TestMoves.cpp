@@ -126,6 +126,50 @@ TEST_F(Moves, ThatFeaturesAreNotHeldIsANoticeOfTheRun)
     1);
 }
 
+/// The word on a move of a vertex of a flange's upper side, which sharp edges bound, to a place.
+ConstraintMeasure wordOnPart(const Vector3& to)
+{
+  constexpr double kFeatureAngle = 40 * 3.14159265358979323846 / 180;
+  const auto surface = loadPly(QUADRILLE_DATA "/part.ply");
+  RemeshOptions options = sessionOptions(3000);
+  options.coarseVertices = 1000;
+  options.featureAngle = kFeatureAngle;
+  options.keepsPositions = true;
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Move;
+  placed.given = placed.path = { { -33.7, -43.1, 12 }, to };
+  std::vector<PlacedConstraint> all{ placed };
+  std::vector<std::string> notices;
+  const UncutResult made = remeshWithMoves(
+    *surface, options,
+    [](SurfaceInput input, const RemeshOptions& asked)
+    {
+      UncutResult result;
+      result.remeshed = remesh(std::move(input), asked);
+      return result;
+    },
+    {}, all, notices);
+  EXPECT_EQ(all[0].whyNot, "");
+  return ConstraintMeasures(made.remeshed.quads).move(all[0]);
+}
+
+/// As in a session: the vertex is where it was to be, but others have come on the sides that the features bound.
+TEST(MovesOnAPart, TheWordOnOneAcrossAFeatureTellsWhatItChanges)
+{
+  const ConstraintMeasure word = wordOnPart({ -18.7, -49.8, 11.9 });
+  EXPECT_LT(word.deviation, 0.3);
+  EXPECT_FALSE(word.isMet);
+  EXPECT_NE(word.reason.find("other irregular vertices are not as they were"), std::string::npos)
+    << word.reason;
+  EXPECT_NE(word.reason.find("cannot pass features"), std::string::npos) << word.reason;
+}
+
+TEST(MovesOnAPart, OneThatLeavesTheOthersIsMet)
+{
+  const ConstraintMeasure word = wordOnPart({ -28.6, -36.6, 12 });
+  EXPECT_TRUE(word.isMet) << word.reason;
+}
+
 TEST(ExpectedIrregular, HasTheImagesOfASymmetry)
 {
   const std::vector<IrregularVertex> shown{ { Vector3(1, 2, 3), 5 }, { Vector3(4, 5, 6), 3 } };
