@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Lists.h"
+#include "Base/Progress.h"
 #include "Mesh/Topology.h"
 #include "Quads/QuadTopology.h"
 #include "Quads/StripInsertion.h"
@@ -171,8 +172,8 @@ private:
     return true;
   }
 
-  /// Which points of a loop are pins: those in corners, where other than two quads meet. False where they do not go once round the loop of the face. along: where each may
-  /// lie, several places where both sides of a slit do.
+  /// Which points of a loop are pins: those in corners, where other than two quads meet. False where they do not go once
+  /// round the loop of the face. along: where each may lie, several places where both sides of a slit do.
   bool anchor(const std::vector<Index>& loop, const QuadTopology& topology, const FaceLoop& ofFace,
     const std::vector<std::vector<double>>& along)
   {
@@ -202,10 +203,17 @@ private:
     return std::abs(round - ofFace.length()) < within_ * static_cast<double>(loop.size());
   }
 
-  Sides sides() const
+  /// None where the quads are no manifold any more.
+  std::optional<Sides> sides() const
   {
     Sides found;
     found.topology = analyzeQuads(mesh_.quads, mesh_.points.size());
+    if (found.topology.nonManifoldEdges + found.topology.nonManifoldVertices +
+        found.topology.degenerateQuads >
+      0)
+    {
+      return std::nullopt;
+    }
     found.loops = boundaryLoops(found.topology);
     found.of.assign(found.topology.twin.size(), kInvalidIndex);
     for (std::vector<Index>& loop : found.loops)
@@ -243,13 +251,18 @@ private:
     // has the right number, of which there are no more than there are edges.
     for (std::size_t left = 2 * face_.vertexCount(); left > 0; --left)
     {
-      const Sides now = sides();
-      const auto [least, most] = std::minmax_element(now.sides.begin(), now.sides.end());
+      poll();
+      const std::optional<Sides> now = sides();
+      if (!now)
+      {
+        return false;
+      }
+      const auto [least, most] = std::minmax_element(now->sides.begin(), now->sides.end());
       if (*least == 0 && *most == 0)
       {
         return true;
       }
-      if (*least < 0 ? !takeOut(now) : !putIn(now))
+      if (*least < 0 ? !takeOut(*now) : !putIn(*now))
       {
         return false;
       }
@@ -440,7 +453,8 @@ private:
       Vector3 way = Vector3::Zero();
       for (const Index other : others)
       {
-        way += kApart / static_cast<double>(others.size()) * (mesh_.points[other] - mesh_.points[p]);
+        way +=
+          kApart / static_cast<double>(others.size()) * (mesh_.points[other] - mesh_.points[p]);
       }
       mesh_.points[p] += way;
     }
@@ -471,8 +485,8 @@ private:
       result.fitting.push_back(ground_.angleAt(v) / kRightAngle);
     }
     std::vector<Index> own(mesh_.points.size(), kInvalidIndex);
-    const Sides now = sides();
-    for (const std::vector<Index>& loop : now.loops)
+    const std::optional<Sides> now = sides(); // as fit() has left them
+    for (const std::vector<Index>& loop : now->loops)
     {
       const Index first = mesh_.origin(loop.front());
       const std::vector<Index>& ofLoop = loops_[loopOf_[first]].pins;

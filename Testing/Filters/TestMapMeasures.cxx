@@ -22,7 +22,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kRounding = 1e-9;
 
 vtkSmartPointer<vtkPolyData> mapOf(vtkPolyData* surface, int quads)
 {

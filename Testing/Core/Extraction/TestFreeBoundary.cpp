@@ -196,7 +196,6 @@ bool cross(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& 
 {
   const auto side = [](const Vector3& p, const Vector3& q, const Vector3& r)
   { return (q - p).cross(r - p).z(); };
-  constexpr double kRounding = 1e-9; // coordinates below 100 in doubles
   return side(a, b, c) * side(a, b, d) < -kRounding && side(c, d, a) * side(c, d, b) < -kRounding;
 }
 

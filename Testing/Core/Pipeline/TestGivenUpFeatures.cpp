@@ -297,7 +297,7 @@ struct CutPlate
         quads.sourceWeights[p] = triangles.on(f, quads.points[p]).weights;
       }
     }
-    return fillCutFaces(cut, &rest(), &quads, 1);
+    return fillCutFaces(cut, &rest(), &quads, 1, {});
   }
 
   std::vector<Index> out; ///< faces, ascending
