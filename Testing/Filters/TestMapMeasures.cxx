@@ -22,7 +22,6 @@ namespace quadrille
 namespace
 {
 
-
 vtkSmartPointer<vtkPolyData> mapOf(vtkPolyData* surface, int quads)
 {
   vtkNew<vtkQuadRemesh> remesh;
