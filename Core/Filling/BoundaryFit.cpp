@@ -317,8 +317,8 @@ private:
     return best.has_value();
   }
 
-  /// Whether the two sides of a strip may become one: no two anchors, no two points of the boundary over the inside, and
-  /// none that have a neighbour in common; and at least three quads are left round each point inside.
+  /// Whether the two sides of a strip may become one: no two anchors, no two points of the boundary over the inside,
+  /// none that have a neighbour in common; and three quads are left round each point inside.
   bool mayGo(const QuadPath& chord, const QuadTopology& topology, const Grouped<>& quadsAt) const
   {
     std::vector<Index> seen;
