@@ -172,8 +172,8 @@ private:
     return true;
   }
 
-  /// Which points of a loop are pins: those in corners, where other than two quads meet. False where they do not go once
-  /// round the loop of the face. along: where each may lie, several places where both sides of a slit do.
+  /// Which points of a loop are pins: those in corners, where other than two quads meet. False where they do not go
+  /// once round the loop of the face. along: where each may lie, several places where both sides of a slit do.
   bool anchor(const std::vector<Index>& loop, const QuadTopology& topology, const FaceLoop& ofFace,
     const std::vector<std::vector<double>>& along)
   {
