@@ -25,8 +25,6 @@ namespace
 constexpr double kAtPin = 1e-6;
 /// Edges at a point of the boundary with two quads.
 constexpr int kAlongBoundary = 3;
-/// Of the way to their neighbours across by which both sides of a new strip part.
-constexpr double kApart = 1.0 / 3;
 /// By which the ways of the boundary have come to the points inside.
 constexpr int kSweepsOfWays = 50;
 
@@ -448,14 +446,8 @@ private:
     const InsertedStrip strip = insertStrip(mesh_, *path);
     mesh_.lines.clear();
     growWith(strip);
-    for (const auto& [p, others] : pointsBeside(strip, mesh_.quads))
+    for (const auto& [p, way] : waysApart(strip, mesh_))
     {
-      Vector3 way = Vector3::Zero();
-      for (const Index other : others)
-      {
-        way +=
-          kApart / static_cast<double>(others.size()) * (mesh_.points[other] - mesh_.points[p]);
-      }
       mesh_.points[p] += way;
     }
     return true;

@@ -178,23 +178,9 @@ private:
 /// Copies of points that a strip has left at one place go apart, by a third of the way to their neighbours across.
 void spreadStrip(const Mesh& mesh, QuadMesh& quads, const InsertedStrip& strip)
 {
-  constexpr double share = 1.0 / 3;
-  std::map<Index, std::vector<Vector3>> beside; // where they are before any point moves
-  for (const auto& [p, others] : pointsBeside(strip, quads.quads))
-  {
-    for (const Index other : others)
-    {
-      beside[p].push_back(quads.points[other]);
-    }
-  }
   QuadMoves moves(mesh, quads, {});
-  for (const auto& [p, others] : beside)
+  for (const auto& [p, way] : waysApart(strip, quads))
   {
-    Vector3 way = Vector3::Zero();
-    for (const Vector3& other : others)
-    {
-      way += share / static_cast<double>(others.size()) * (other - quads.points[p]);
-    }
     if (const std::optional<SurfacePoint> there = moves.target(p, way))
     {
       moves.move(p, *there, positionOf(mesh, *there));

@@ -261,6 +261,22 @@ std::map<Index, std::vector<Index>> pointsBeside(
   return beside;
 }
 
+std::map<Index, Vector3> waysApart(const InsertedStrip& strip, const QuadMesh& mesh)
+{
+  constexpr double share = 1.0 / 3;
+  std::map<Index, Vector3> ways;
+  for (const auto& [p, others] : pointsBeside(strip, mesh.quads))
+  {
+    Vector3 way = Vector3::Zero();
+    for (const Index other : others)
+    {
+      way += share / static_cast<double>(others.size()) * (mesh.points[other] - mesh.points[p]);
+    }
+    ways.emplace(p, way);
+  }
+  return ways;
+}
+
 InsertedStrip splitChord(QuadMesh& mesh, const QuadPath& chord)
 {
   const std::vector<Index> lineHalfEdges = halfEdgesOfLines(mesh);

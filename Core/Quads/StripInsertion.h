@@ -60,4 +60,8 @@ InsertedStrip insertStrip(QuadMesh& mesh, const QuadPath& path);
 std::map<Index, std::vector<Index>> pointsBeside(
   const InsertedStrip& strip, const std::vector<std::array<Index, 4>>& quads);
 
+/// By how much each of these goes towards those beside it, a third of the way on average, so that both sides of the
+/// strip part.
+std::map<Index, Vector3> waysApart(const InsertedStrip& strip, const QuadMesh& mesh);
+
 } // namespace quadrille
