@@ -4,7 +4,6 @@
 
 #include "Base/Lists.h"
 #include "Quads/QuadProjection.h"
-#include "Quads/QuadShape.h"
 
 #include <algorithm>
 
@@ -133,7 +132,11 @@ std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
   const auto squaredTo = [&](Index i) { return (mesh_.points[i] - p).squaredNorm(); };
   place.edgeLength = edgeLengthRound_[*std::min_element(
     quad.begin(), quad.end(), [&](Index a, Index b) { return squaredTo(a) < squaredTo(b); })];
-  place.normal = diagonalNormal(corners).stableNormalized();
+  for (const Index corner : quad)
+  {
+    place.normal += pointNormals_[corner];
+  }
+  place.normal.stableNormalize();
   place.along = { Vector3(alongU.stableNormalized()), Vector3(alongV.stableNormalized()) };
   return place;
 }

@@ -76,7 +76,9 @@ public:
     double edgeLength = 0;
     /// Unit tangents of its two families of edges, blended from opposite edges.
     std::array<Vector3, 2> along;
-    Vector3 normal = Vector3::Zero(); ///< of the quad, unit; zero where it has no area
+    /// The mean of those of the quad's corners, unit; zero where there is none. So one of them at least is on the side
+    /// of the place, also where the quad is inverted.
+    Vector3 normal = Vector3::Zero();
   };
 
   explicit NearestQuads(const QuadMesh& mesh);
