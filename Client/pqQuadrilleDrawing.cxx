@@ -160,10 +160,7 @@ void pqQuadrilleDrawing::setTool(Tool tool)
   {
     qApp->installEventFilter(this);
   }
-  if (tool == Tool::Move || tool == Tool::Connect)
-  {
-    this->showBalls();
-  }
+  this->showOutputs();
   if (isOther)
   {
     say(hintOf(tool));
@@ -780,7 +777,7 @@ void pqQuadrilleDrawing::finishConnection(vtkSMSourceProxy* filter)
 }
 
 //-----------------------------------------------------------------------------
-void pqQuadrilleDrawing::showBalls()
+void pqQuadrilleDrawing::showOutputs()
 {
   pqPipelineSource* active = pqActiveObjects::instance().activeSource();
   auto* selected = vtkSMSourceProxy::SafeDownCast(active ? active->getProxy() : nullptr);
@@ -789,8 +786,12 @@ void pqQuadrilleDrawing::showBalls()
   if (this->View && filter && controller->GetVisibility(filter, 0, this->viewProxy()))
   {
     const pqScopedUndoExclude noStepOfTheUser;
-    controller->SetVisibility(filter, kBallsOutput, this->viewProxy(), true);
-    this->View->render();
+    controller->SetVisibility(filter, kConstraintsOutput, this->viewProxy(), true);
+    if (this->Current == Tool::Move || this->Current == Tool::Connect)
+    {
+      controller->SetVisibility(filter, kBallsOutput, this->viewProxy(), true);
+      this->View->render();
+    }
   }
 }
 

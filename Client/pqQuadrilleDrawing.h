@@ -118,8 +118,9 @@ private:
   void glide();
   /// The quads are as they were before.
   void letGo();
-  /// Balls can be pressed where they are seen.
-  void showBalls();
+  /// Balls, which can be pressed where they are seen, and the constraints, so that their first picture is not made when
+  /// something was drawn, in the time that the window stands still then.
+  void showOutputs();
 
   /// remark: told with the outcome.
   void perform(vtkSMSourceProxy* filter, const quadrille::NewConstraint& constraint,

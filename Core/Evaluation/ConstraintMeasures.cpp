@@ -309,23 +309,28 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
   return word;
 }
 
-/// The point that is judged for a place: of those with the valence the nearest one.
-std::optional<Index> ConstraintMeasures::pointFor(const Vector3& place, int asked)
+/// The point that is judged for a place: of those with the valence on its side the nearest one.
+std::optional<Index> ConstraintMeasures::pointFor(
+  const NearestQuads::Place& there, const Vector3& place, int asked)
 {
-  return asked == kRegularValence ? valences().nearest(place) : valences().nearestOf(asked, place);
+  const QuadSide side = quads().sideOf(there);
+  return asked == kRegularValence ? valences().nearest(place, side)
+                                  : valences().nearestOf(asked, place, side);
 }
 
 ConstraintMeasure ConstraintMeasures::valence(const Vector3& place, int asked)
 {
   ConstraintMeasure word = ConstraintMeasure::unknown(place, "edge lengths", kNoQuads);
-  const double length = mesh_.quads.empty() ? 0 : edgeLengthAt(place);
+  const std::optional<NearestQuads::Place> there =
+    mesh_.quads.empty() ? std::nullopt : quads().at(place);
+  const double length = there ? there->edgeLength : 0;
   if (!(length > 0))
   {
     return word;
   }
-  const std::string there = std::to_string(valences().valence(*valences().nearest(place)));
-  const std::string wanted = "asked " + std::to_string(asked) + ", got " + there;
-  const std::optional<Index> point = pointFor(place, asked);
+  const std::string wanted = "asked " + std::to_string(asked) + ", got " +
+    std::to_string(valences().valence(*pointFor(*there, place, kRegularValence)));
+  const std::optional<Index> point = pointFor(*there, place, asked);
   if (!point)
   {
     word.reason = wanted + "; the quads have no point of valence " + std::to_string(asked);
@@ -354,7 +359,9 @@ int ConstraintMeasures::valenceShown(const Vector3& place, int asked)
   {
     return 0;
   }
-  return valence(place, asked).isMet ? asked : valences().valence(*valences().nearest(place));
+  return valence(place, asked).isMet
+    ? asked
+    : valences().valence(*pointFor(*quads().at(place), place, kRegularValence));
 }
 
 /// An irregular point within an edge length of the place that is none of these; each stands for one point of its
@@ -363,12 +370,14 @@ std::optional<Index> ConstraintMeasures::strangerAt(
   const Vector3& place, const std::vector<ValencePlace>& irregular)
 {
   constexpr double kBesideGoal = 1, kReachOfPartner = 2; // edge lengths
-  const double length = edgeLengthAt(place);
+  const NearestQuads::Place there = *quads().at(place);
+  const QuadSide side = quads().sideOf(there);
+  const double length = there.edgeLength;
   std::vector<std::pair<double, Index>> beside;
   for (Index p = 0; p < mesh_.points.size(); ++p)
   {
     const double distance = (mesh_.points[p] - place).norm();
-    if (distance <= kBesideGoal * length && valences().valence(p) != kRegularValence)
+    if (distance <= kBesideGoal * length && valences().valence(p) != kRegularValence && side.has(p))
     {
       beside.emplace_back(distance, p);
     }
@@ -593,8 +602,9 @@ ConstraintMeasure ConstraintMeasures::size(
       add(q);
     }
   }
-  const std::optional<Index> point =
-    quads.empty() ? valences().nearest(place) : std::optional<Index>();
+  const std::optional<Index> point = quads.empty()
+    ? pointFor(*this->quads().at(place), place, kRegularValence)
+    : std::optional<Index>();
   for (Index q = 0; point && q < mesh_.quads.size(); ++q)
   {
     const std::array<Index, 4>& corners = mesh_.quads[q];

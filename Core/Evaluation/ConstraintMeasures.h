@@ -147,7 +147,7 @@ private:
   bool isAtIrregularVertex(Index quad) const;
   const NearestQuads& quads();
   const ReachedValences& valences();
-  std::optional<Index> pointFor(const Vector3& place, int asked);
+  std::optional<Index> pointFor(const NearestQuads::Place& there, const Vector3& place, int asked);
   std::optional<Index> strangerAt(const Vector3& place, const std::vector<ValencePlace>& irregular);
   ConstraintMeasure sizeOf(const std::vector<std::pair<Index, double>>& quads, const Vector3& place,
     const AskedSize& asked) const;

@@ -147,12 +147,6 @@ LineInQuads LinesInQuads::lineOf(const std::vector<Index>& chain) const
   return line;
 }
 
-double LinesInQuads::lengthAt(const Vector3& place) const
-{
-  const std::optional<NearestQuads::Place> there = nearest_.at(place);
-  return there ? there->edgeLength : 0;
-}
-
 std::optional<LineInQuads> LinesInQuads::findCycle(const std::vector<Vector3>& path) const
 {
   const LineComparison line(path, edgeLength_);
@@ -173,13 +167,14 @@ std::optional<LineInQuads> LinesInQuads::findCycle(const std::vector<Vector3>& p
 std::optional<LineInQuads> LinesInQuads::findConnection(const std::vector<Vector3>& path) const
 {
   const LineComparison line(path, edgeLength_);
-  const double startLength = lengthAt(path.front());
-  const double endLength = lengthAt(path.back());
+  const NearestQuads::Place start = *nearest_.at(path.front());
+  const NearestQuads::Place end = *nearest_.at(path.back());
+  const QuadSide startSide = nearest_.sideOf(start), endSide = nearest_.sideOf(end);
   std::optional<LineInQuads> best;
   for (Index first = 0; first < mesh_.points.size(); ++first)
   {
-    const double startOff = (mesh_.points[first] - path.front()).norm() / startLength;
-    if (isEnd_[first] == 0 || !(startOff <= kReachOfEnds))
+    const double startOff = (mesh_.points[first] - path.front()).norm() / start.edgeLength;
+    if (isEnd_[first] == 0 || !(startOff <= kReachOfEnds) || !startSide.has(first))
     {
       continue;
     }
@@ -187,8 +182,8 @@ std::optional<LineInQuads> LinesInQuads::findConnection(const std::vector<Vector
       [&](const std::vector<Index>& chain)
       {
         const Vector3& last = mesh_.points[chain.back()];
-        const double endOff = (last - path.back()).norm() / endLength;
-        if (isEnd_[chain.back()] != 0 && endOff <= kReachOfEnds)
+        const double endOff = (last - path.back()).norm() / end.edgeLength;
+        if (isEnd_[chain.back()] != 0 && endOff <= kReachOfEnds && endSide.has(chain.back()))
         {
           LineInQuads found = lineOf(chain);
           line.compare(found);

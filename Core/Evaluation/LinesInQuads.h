@@ -47,13 +47,12 @@ public:
 
   /// Of all chains within kNearLine of the line the nearest one, those that are met first. None where there is none.
   /// A connection runs from a point that is irregular, on a feature or on the boundary to another one, each within
-  /// three edge lengths of its end, and passes regular points only; a cycle closes once round.
+  /// three edge lengths of its end and on its side, and passes regular points only; a cycle closes once round.
   std::optional<LineInQuads> find(const PlacedConstraint& constraint) const;
 
 private:
   std::optional<LineInQuads> findCycle(const std::vector<Vector3>& path) const;
   std::optional<LineInQuads> findConnection(const std::vector<Vector3>& path) const;
-  double lengthAt(const Vector3& place) const;
   LineInQuads lineOf(const std::vector<Index>& chain) const;
 
   const QuadMesh& mesh_;

@@ -4,6 +4,7 @@
 
 #include "Base/Lists.h"
 #include "Quads/QuadProjection.h"
+#include "Quads/QuadShape.h"
 
 #include <algorithm>
 
@@ -58,27 +59,34 @@ ReachedValences::ReachedValences(const QuadMesh& mesh) : mesh_(mesh)
   }
 }
 
-std::optional<Index> ReachedValences::nearestIn(const Points& points, const Vector3& p) const
+std::optional<Index> ReachedValences::nearestIn(
+  const Points& points, const Vector3& p, const QuadSide& side) const
 {
-  const Index found = points.tree.nearest(
-    p, [&](Index i) { return (mesh_.points[points.ids[i]] - p).squaredNorm(); });
+  const Index found = points.tree.nearest(p,
+    [&](Index i)
+    {
+      const Index point = points.ids[i];
+      return side.has(point) ? (mesh_.points[point] - p).squaredNorm() : kInfinity;
+    });
   return found == kInvalidIndex ? std::nullopt : std::optional<Index>(points.ids[found]);
 }
 
-std::optional<Index> ReachedValences::nearest(const Vector3& p) const
+std::optional<Index> ReachedValences::nearest(const Vector3& p, const QuadSide& side) const
 {
-  return nearestIn(all_, p);
+  return nearestIn(all_, p, side);
 }
 
-std::optional<Index> ReachedValences::nearestOf(int valence, const Vector3& p) const
+std::optional<Index> ReachedValences::nearestOf(
+  int valence, const Vector3& p, const QuadSide& side) const
 {
   const auto found = byValence_.find(valence);
-  return found == byValence_.end() ? std::nullopt : nearestIn(found->second, p);
+  return found == byValence_.end() ? std::nullopt : nearestIn(found->second, p, side);
 }
 
 //------------------------------------------------------------------------------
 NearestQuads::NearestQuads(const QuadMesh& mesh)
-  : mesh_(mesh), halves_(halvesOf(mesh.points, mesh.quads)), edgeLengthRound_(mesh.points.size(), 0)
+  : mesh_(mesh), halves_(halvesOf(mesh.points, mesh.quads)),
+    edgeLengthRound_(mesh.points.size(), 0), pointNormals_(pointNormals(mesh.points, mesh.quads))
 {
   std::vector<int> quadsRound(mesh.points.size(), 0);
   for (const std::array<Index, 4>& quad : mesh.quads)
@@ -97,6 +105,7 @@ NearestQuads::NearestQuads(const QuadMesh& mesh)
   for (std::size_t p = 0; p < quadsRound.size(); ++p)
   {
     edgeLengthRound_[p] /= std::max(quadsRound[p], 1);
+    pointNormals_[p].stableNormalize();
   }
 }
 
@@ -124,6 +133,7 @@ std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
   const auto squaredTo = [&](Index i) { return (mesh_.points[i] - p).squaredNorm(); };
   place.edgeLength = edgeLengthRound_[*std::min_element(
     quad.begin(), quad.end(), [&](Index a, Index b) { return squaredTo(a) < squaredTo(b); })];
+  place.normal = diagonalNormal(corners).stableNormalized();
   place.along = { Vector3(alongU.stableNormalized()), Vector3(alongV.stableNormalized()) };
   return place;
 }

@@ -15,15 +15,35 @@
 namespace quadrille
 {
 
+/// The side of a thin wall that a place is on: what lies on the other side can be nearer in space than what is meant.
+class QuadSide
+{
+public:
+  /// normal: of the surface at the place; zero: all points are on its side. pointNormals: unit, stay.
+  QuadSide(const Vector3& normal, const std::vector<Vector3>& pointNormals)
+    : normal_(normal), pointNormals_(pointNormals)
+  {
+  }
+  bool has(Index point) const { return normal_.dot(pointNormals_[point]) > kOtherSide; }
+
+private:
+  /// Cosine of the angle between normals, 120 degrees. Points of a wall's rim have normals a right angle from either
+  /// side at most, those of its other rim and corners more than 125 degrees.
+  static constexpr double kOtherSide = -0.5;
+
+  Vector3 normal_;
+  const std::vector<Vector3>& pointNormals_;
+};
+
 /// Points of the quads near places, with their valences as they are asked for: on boundaries one more than the edges.
 class ReachedValences
 {
 public:
   /// Here, and below, mesh stays as it is while the object is used.
   explicit ReachedValences(const QuadMesh& mesh);
-  /// None where there is no point (of that valence).
-  std::optional<Index> nearest(const Vector3& p) const;
-  std::optional<Index> nearestOf(int valence, const Vector3& p) const;
+  /// None where there is no point (of that valence) on the side of that place, see QuadSide.
+  std::optional<Index> nearest(const Vector3& p, const QuadSide& side) const;
+  std::optional<Index> nearestOf(int valence, const Vector3& p, const QuadSide& side) const;
   int valence(Index point) const
   {
     return mesh_.valence[point] + (mesh_.onBoundary[point] != 0 ? 1 : 0);
@@ -35,7 +55,8 @@ private:
     std::vector<Index> ids;
     BoxTree tree;
   };
-  std::optional<Index> nearestIn(const Points& points, const Vector3& p) const;
+  std::optional<Index> nearestIn(
+    const Points& points, const Vector3& p, const QuadSide& side) const;
 
   const QuadMesh& mesh_;
   Points all_;
@@ -55,15 +76,18 @@ public:
     double edgeLength = 0;
     /// Unit tangents of its two families of edges, blended from opposite edges.
     std::array<Vector3, 2> along;
+    Vector3 normal = Vector3::Zero(); ///< of the quad, unit; zero where it has no area
   };
 
   explicit NearestQuads(const QuadMesh& mesh);
   std::optional<Place> at(const Vector3& p) const;
+  QuadSide sideOf(const Place& place) const { return { place.normal, pointNormals_ }; }
 
 private:
   const QuadMesh& mesh_;
   NearestTriangle halves_;              ///< 0 1 2 and 0 2 3 of each quad
   std::vector<double> edgeLengthRound_; ///< #points, see Place
+  std::vector<Vector3> pointNormals_;   ///< #points, unit; zero where the quads have no area
 };
 
 /// The edge of the quads nearest to a place.

@@ -23,6 +23,8 @@ constexpr double kSoundQuad = 0.6;
 /// So many directions, and steps as shares of the mean length of their edges.
 constexpr int kSearchDirections = 8;
 constexpr std::array<double, 3> kSteps{ 0.4, 0.15, 0.05 };
+/// Of the shape; smaller ones are rounding.
+constexpr double kLeastGain = 1e-6;
 
 class QuadRelaxation
 {
@@ -59,13 +61,20 @@ private:
     return worst;
   }
 
+  /// Whether none of the quads at the point has a worse shape.
+  bool isWorstAtLeast(Index v, double least) const
+  {
+    return std::all_of(cornersAt_.begin(v), cornersAt_.end(v),
+      [&](Index c) { return shapeOfQuad(mesh_, mesh_.quads[c / 4]) >= least; });
+  }
+
   /// With the point there, wherever the face is.
-  double worstShapeWith(Index v, const Vector3& place)
+  bool isWorstAtLeastWith(Index v, const Vector3& place, double least)
   {
     const Vector3 before = std::exchange(mesh_.points[v], place);
-    const double worst = worstShapeAt(v);
+    const bool isSo = isWorstAtLeast(v, least);
     mesh_.points[v] = before;
-    return worst;
+    return isSo;
   }
 
   /// Each neighbour inside counts twice, once for each quad.
@@ -101,7 +110,7 @@ private:
     const Vector3 place = mesh_.points[v], normal = mesh_.normals[v];
     mesh_.points[v] = spot->point;
     mesh_.normals[v] = spot->normal;
-    if (worstShapeAt(v) >= least)
+    if (isWorstAtLeast(v, least))
     {
       return true;
     }
@@ -127,6 +136,7 @@ private:
   void moveToBest(Index v)
   {
     const double edge = meanEdge(v);
+    double least = worstShapeAt(v) + kLeastGain;
     for (const double step : kSteps)
     {
       const Vector3 place = mesh_.points[v];
@@ -135,11 +145,10 @@ private:
       {
         const double angle = 2 * kPi * i / kSearchDirections;
         const Vector3 to = place + step * edge * (std::cos(angle) * u + std::sin(angle) * w);
-        const double least = worstShapeAt(v) + 1e-6;
         // Few are better, and the place below is found for these only.
-        if (worstShapeWith(v, to) >= least)
+        if (isWorstAtLeastWith(v, to, least) && tryMove(v, to, least))
         {
-          tryMove(v, to, least);
+          least = worstShapeAt(v) + kLeastGain;
         }
       }
     }

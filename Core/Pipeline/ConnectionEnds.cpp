@@ -63,30 +63,39 @@ struct End
 {
   Index point = kInvalidIndex; ///< that is irregular; none: on a curve
   int valence = 0;
+  Vector3 place = Vector3::Zero(); ///< in the quads
 };
 
-/// The nearest in reach.
-std::optional<End> endAt(const QuadMesh& quads, double edgeLength, const Vector3& place)
+QuadSide sideAt(const NearestQuads& nearest, const Vector3& place)
 {
+  return nearest.sideOf(nearest.at(place).value_or(NearestQuads::Place{}));
+}
+
+/// The nearest in reach on the same side of a thin wall. nearest: of the quads.
+std::optional<End> endAt(
+  const QuadMesh& quads, const NearestQuads& nearest, double edgeLength, const Vector3& place)
+{
+  const QuadSide side = sideAt(nearest, place);
   std::optional<End> end;
   double least = kReachOfEnds * edgeLength;
   for (const Index p : irregularInside(quads))
   {
     const double distance = (quads.points[p] - place).norm();
-    if (distance <= least)
+    if (distance <= least && side.has(p))
     {
       least = distance;
-      end = End{ p, quads.valence[p] };
+      end = End{ p, quads.valence[p], quads.points[p] };
     }
   }
   least = std::min(least, kReachOfCurve * edgeLength);
   for (const QuadLine& line : quads.lines)
   {
-    const double distance = distanceToSegment(place, quads.points[line.a], quads.points[line.b]);
-    if (distance <= least)
+    const Vector3 there = nearestOnSegment(place, quads.points[line.a], quads.points[line.b]);
+    const double distance = (there - place).norm();
+    if (distance <= least && (side.has(line.a) || side.has(line.b)))
     {
       least = distance;
-      end = End{};
+      end = End{ kInvalidIndex, 0, there };
     }
   }
   return end;
@@ -107,12 +116,21 @@ std::vector<ValencePlace> fixedValences(const SurfaceInput& input)
   return fixed;
 }
 
-/// The end of a connection that joins an irregular vertex at a point of the quads. Where a valence is asked for there,
-/// that is the place; otherwise the vertex comes to the end.
-void leadTo(const Vector3& point, int valence, double edgeLength, SurfaceInput& input, Vector3& end)
+/// Of the places with the valence of what a point of the quads is, on its side of a thin wall, the nearest one.
+const ValencePlace* nearestTo(const End& end, const std::vector<ValencePlace>& valences,
+  const NearestQuads& nearest, double within)
+{
+  return nearestOf(valences, end.valence, end.place, within,
+    [&](const ValencePlace& asked) { return sideAt(nearest, asked.place).has(end.point); });
+}
+
+/// The end of a connection that joins an irregular vertex of the quads. Where a valence is asked for there, that is the
+/// place; otherwise the vertex comes to the end.
+void leadTo(const End& joined, const NearestQuads& nearest, double edgeLength, SurfaceInput& input,
+  Vector3& end)
 {
   const std::vector<ValencePlace> fixed = fixedValences(input);
-  if (const ValencePlace* asked = nearestOf(fixed, valence, point, kMetDistance * edgeLength))
+  if (const ValencePlace* asked = nearestTo(joined, fixed, nearest, kMetDistance * edgeLength))
   {
     end = asked->place;
     return;
@@ -121,7 +139,7 @@ void leadTo(const Vector3& point, int valence, double edgeLength, SurfaceInput& 
   const std::vector<ValencePlace> drifting =
     elementsWhere(valences, [](const ValencePlace& asked) { return asked.mayDrift; });
   if (const ValencePlace* kept =
-        nearestOf(drifting, valence, point, kReachOfSmoothing * edgeLength))
+        nearestTo(joined, drifting, nearest, kReachOfSmoothing * edgeLength))
   {
     valences.erase(std::find(valences.begin(), valences.end(), *kept));
   }
@@ -180,12 +198,13 @@ bool ConnectionEnds::findIn(RemeshResult& without)
   }
   bool isAny = false;
   std::set<Index> joined;
+  const NearestQuads nearest(without.quads);
   for (std::size_t i = 0; i < input_.curves.size(); ++i)
   {
     CurveRequest& curve = input_.curves[i];
     if (!curve.isDrawn())
     {
-      join(curve, without, whyNot_[i], joined);
+      join(curve, without, nearest, whyNot_[i], joined);
       isAny = isAny || curve.isDrawn();
       isMissing_ = isMissing_ || !curve.isDrawn();
     }
@@ -193,21 +212,21 @@ bool ConnectionEnds::findIn(RemeshResult& without)
   isMissing_ = isMissing_ && isAny;
   if (isAny)
   {
-    hold(without, joined);
+    hold(without, nearest, joined);
     take(without);
   }
   return isAny;
 }
 
 void ConnectionEnds::join(CurveRequest& connection, const RemeshResult& without,
-  std::string& whyNot, std::set<Index>& joined)
+  const NearestQuads& nearest, std::string& whyNot, std::set<Index>& joined)
 {
   const double edgeLength = without.targetEdgeLength;
   const std::array<Vector3*, 2> places{ &connection.points.front(), &connection.points.back() };
   std::array<std::optional<End>, 2> ends;
   for (std::size_t i = 0; i < 2; ++i)
   {
-    ends[i] = endAt(without.quads, edgeLength, *places[i]);
+    ends[i] = endAt(without.quads, nearest, edgeLength, *places[i]);
     if (!ends[i])
     {
       whyNot = "no irregular vertex, feature or boundary lies within " +
@@ -218,8 +237,8 @@ void ConnectionEnds::join(CurveRequest& connection, const RemeshResult& without,
   }
   if (ends[0]->point != kInvalidIndex && ends[0]->point == ends[1]->point)
   {
-    whyNot = "both ends are nearest to the same vertex, at " +
-      placeText(without.quads.points[ends[0]->point]) + ": draw between two";
+    whyNot = "both ends are nearest to the same vertex, at " + placeText(ends[0]->place) +
+      ": draw between two";
     return;
   }
   whyNot.clear();
@@ -229,13 +248,22 @@ void ConnectionEnds::join(CurveRequest& connection, const RemeshResult& without,
     if (ends[i]->point != kInvalidIndex)
     {
       joined.insert(ends[i]->point);
-      leadTo(
-        without.quads.points[ends[i]->point], ends[i]->valence, edgeLength, input_, *places[i]);
+      leadTo(*ends[i], nearest, edgeLength, input_, *places[i]);
     }
+  }
+  std::vector<Vector3>& points = connection.points;
+  if (ends[0]->point == kInvalidIndex)
+  {
+    points.insert(points.begin(), ends[0]->place);
+  }
+  if (ends[1]->point == kInvalidIndex)
+  {
+    points.push_back(ends[1]->place);
   }
 }
 
-void ConnectionEnds::hold(const RemeshResult& without, const std::set<Index>& joined)
+void ConnectionEnds::hold(
+  const RemeshResult& without, const NearestQuads& nearest, const std::set<Index>& joined)
 {
   held_.clear();
   if (input_.regularElsewhere)
@@ -246,13 +274,12 @@ void ConnectionEnds::hold(const RemeshResult& without, const std::set<Index>& jo
   const std::vector<std::uint8_t> isOfMap = pointsOfMap(without.quads);
   for (const Index p : irregularInside(without.quads))
   {
-    const Vector3& place = without.quads.points[p];
-    const int valence = without.quads.valence[p];
+    const End vertex{ p, without.quads.valence[p], without.quads.points[p] };
     const bool isAsked = joined.count(p) != 0 ||
-      nearestOf(fixed, valence, place, kMetDistance * without.targetEdgeLength) != nullptr;
+      nearestTo(vertex, fixed, nearest, kMetDistance * without.targetEdgeLength) != nullptr;
     if (!isAsked && isOfMap[p] != 0)
     {
-      held_.push_back({ place, valence, true });
+      held_.push_back({ vertex.place, vertex.valence, true });
     }
   }
 }

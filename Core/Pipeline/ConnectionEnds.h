@@ -4,6 +4,7 @@
 /// connections all other irregular vertices stay where these quads have them.
 #pragma once
 
+#include "Evaluation/QuadPlaces.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Pipeline.h"
 
@@ -46,9 +47,10 @@ public:
 
 private:
   /// joined: gets the points of the quads that it joins.
-  void join(CurveRequest& connection, const RemeshResult& without, std::string& whyNot,
-    std::set<Index>& joined);
-  void hold(const RemeshResult& without, const std::set<Index>& joined);
+  void join(CurveRequest& connection, const RemeshResult& without, const NearestQuads& nearest,
+    std::string& whyNot, std::set<Index>& joined);
+  void hold(
+    const RemeshResult& without, const NearestQuads& nearest, const std::set<Index>& joined);
   void take(const RemeshResult& made);
 
   SurfaceInput& input_;

@@ -5,6 +5,7 @@
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Evaluation/ConstraintMeasures.h"
+#include "Evaluation/LinesInQuads.h"
 #include "Features/FeatureFilter.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Distance.h"
@@ -14,6 +15,7 @@
 #include "Requests/InsertPlaces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -75,35 +77,17 @@ void flipBeside(PreparedSurface& surface, Index before)
   flips.finish();
 }
 
-/// Of features and boundaries, at most so far away; none: p.
-Vector3 nearestOnCurves(const Mesh& mesh, const Vector3& p, double within)
-{
-  Vector3 best = p;
-  double least = within;
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isConstrained(h))
-    {
-      const Vector3 q =
-        nearestOnSegment(p, mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)]);
-      best = (q - p).norm() < least ? q : best;
-      least = std::min(least, (q - p).norm());
-    }
-  }
-  return best;
-}
-
-/// A connection's ends that are to lie on features or boundaries.
+/// A connection's ends that are to lie on features or boundaries, where the quads' edges have them.
 void leadToCurves(const Mesh& mesh, double within, CurveRequest& connection)
 {
   std::vector<Vector3>& points = connection.points;
   if ((*connection.ends)[0] == 0)
   {
-    points.insert(points.begin(), nearestOnCurves(mesh, points.front(), within));
+    points.front() = nearestOnCurves(mesh, points.front(), within).value_or(points.front());
   }
   if ((*connection.ends)[1] == 0)
   {
-    points.push_back(nearestOnCurves(mesh, points.back(), within));
+    points.back() = nearestOnCurves(mesh, points.back(), within).value_or(points.back());
   }
 }
 
@@ -176,7 +160,14 @@ void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& d
   std::vector<std::vector<Vector3>> paths;
   if (!features.empty())
   {
-    paths = insertFeatures(surface, features, options, notices);
+    const double near = kMetDistance * edgeLength;
+    std::vector<std::array<double, 2>> toCurves(features.size(), { 0, 0 });
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+    {
+      const bool isClosed = drawn[i].points.front() == drawn[i].points.back();
+      toCurves[i] = isClosed ? toCurves[i] : std::array<double, 2>{ near, near };
+    }
+    paths = insertFeatures(surface, features, options, notices, toCurves);
   }
   std::size_t next = drawn.size();
   for (CurveRequest& curve : surface.curves)
@@ -191,9 +182,12 @@ void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& d
   {
     if (curve.ends)
     {
-      leadToCurves(
-        surface.mesh, 2 * kReachOfCurve * edgeLength, curve); // the quads' edges are chords
-      curve.points = insertFeatures(surface, { { curve.points } }, options, notices).front();
+      leadToCurves(surface.mesh, kReachOfCurve * edgeLength, curve);
+      const double near = kMetLine * edgeLength;
+      const auto [begin, end] = *curve.ends;
+      const std::array<double, 2> toCurves{ begin == 0 ? near : 0, end == 0 ? near : 0 };
+      curve.points =
+        insertFeatures(surface, { { curve.points } }, options, notices, { toCurves }).front();
     }
   }
   noteAdded(surface, before, threads, notices);
@@ -222,15 +216,16 @@ std::vector<ValencePlace> withEnds(
   return valences;
 }
 
-const ValencePlace* nearestOf(
-  const std::vector<ValencePlace>& valences, int valence, const Vector3& p, double within)
+const ValencePlace* nearestOf(const std::vector<ValencePlace>& valences, int valence,
+  const Vector3& p, double within, const std::function<bool(const ValencePlace&)>& counts)
 {
   const ValencePlace* nearest = nullptr;
   for (const ValencePlace& asked : valences)
   {
     const double distance = (asked.place - p).norm();
     if (asked.valence == valence &&
-      (nearest == nullptr ? distance <= within : distance < (nearest->place - p).norm()))
+      (nearest == nullptr ? distance <= within : distance < (nearest->place - p).norm()) &&
+      (!counts || counts(asked)))
     {
       nearest = &asked;
     }

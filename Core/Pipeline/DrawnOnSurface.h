@@ -6,6 +6,7 @@
 #include "Mesh/Surface.h"
 #include "Pipeline/ResultStore.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,10 @@ void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& d
 std::vector<ValencePlace> withEnds(
   std::vector<ValencePlace> valences, const std::vector<CurveRequest>& curves, double edgeLength);
 
-/// Of the places with this valence the nearest one to p, at most so far away; null: none.
-const ValencePlace* nearestOf(
-  const std::vector<ValencePlace>& valences, int valence, const Vector3& p, double within);
+/// Of the places with this valence the nearest one to p, at most so far away; null: none. counts: which of them do;
+/// empty: all.
+const ValencePlace* nearestOf(const std::vector<ValencePlace>& valences, int valence,
+  const Vector3& p, double within, const std::function<bool(const ValencePlace&)>& counts = {});
 
 /// Valences at places, on the triangles as they are to stay. Whether vertices were added to these.
 bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,

@@ -5,6 +5,7 @@
 #include "Base/DisjointSets.h"
 #include "Base/Lists.h"
 #include "Base/PlaceText.h"
+#include "Features/FeatureFilter.h"
 #include "Filling/FaceCurves.h"
 #include "Filling/FilledFaces.h"
 #include "Mesh/ContentHash.h"
@@ -455,9 +456,10 @@ bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
 
 bool keepsFeatures(const PreparedSurface& surface)
 {
-  return surface.facets.isDesigned ||
-    std::any_of(surface.mesh.flags.begin(), surface.mesh.flags.end(),
-      [](std::uint8_t flags) { return (flags & kRequestedFeature) != 0; });
+  const auto& flags = surface.mesh.flags;
+  const bool isAnyAsked = std::any_of(
+    flags.begin(), flags.end(), [](std::uint8_t edge) { return (edge & kRequestedFeature) != 0; });
+  return surface.facets.isDesigned || (isAnyAsked && !hasDetectedFeature(surface.mesh));
 }
 
 bool isCutAtFaces(

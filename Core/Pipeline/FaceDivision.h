@@ -33,8 +33,9 @@ struct CutFaces
 /// Whether features cut a surface into several faces, and parts of its boundary have not to fit others, which quads
 /// without a map do not care for.
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options);
-/// Whether the features are those of a designed body, or someone has asked for some: then none is given up for a map.
-/// On others they are found by their angle, and those near a failure go before faces are cut out.
+/// Whether the features are those of a designed body, or someone has asked for all of them: then none is given up for a
+/// map. On others they are found by their angle, and those near a failure go before faces are cut out; a line that is
+/// drawn there says nothing of them.
 bool keepsFeatures(const PreparedSurface& surface);
 /// Whether attempts on such a surface have no quads yet, and not as what was asked for contradicts itself.
 bool isCutAtFaces(

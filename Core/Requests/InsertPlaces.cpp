@@ -71,25 +71,78 @@ public:
     return chain;
   }
 
-  /// The edges of a chain become features.
+  /// The edges of a chain become features; those that chains after it have crossed are cut in parts.
   void mark(const std::vector<Index>& chain)
   {
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
     {
-      forEachInFan(mesh_, halfEdgeFrom(chain[i]),
-        [&](Index h)
+      if (!markEdge(chain[i], chain[i + 1]))
+      {
+        const std::vector<Index> parts = connect(chain[i], chain[i + 1]);
+        for (std::size_t k = 0; k + 1 < parts.size(); ++k)
         {
-          for (const Index edge : { h, Mesh::previous(h) })
-          {
-            const bool isOfChain =
-              mesh_.target(edge) == chain[i + 1] || mesh_.origin[edge] == chain[i + 1];
-            if (isOfChain)
-            {
-              setFeature(edge);
-            }
-          }
-        });
+          markEdge(parts[k], parts[k + 1]);
+        }
+      }
     }
+  }
+
+  /// Takes off the end of a chain what lies beyond a feature or boundary, and all of it within so far from where the
+  /// chain passes that.
+  void cutBeyondCurve(std::vector<Index>& chain, double within)
+  {
+    std::size_t last = chain.size(); // of the chain
+    bool leaves = false;
+    for (std::size_t i = chain.size(); i-- > 1;)
+    {
+      const auto isNear = [&](Index v)
+      { return (mesh_.position[v] - mesh_.position[chain[i]]).norm() <= within; };
+      if (!std::all_of(chain.begin() + static_cast<std::ptrdiff_t>(i), chain.end(), isNear))
+      {
+        break;
+      }
+      const bool isOn = isOnConstraint(halfEdgeFrom(chain[i]));
+      last = isOn && leaves ? i : last;
+      leaves = leaves || !isOn;
+    }
+    chain.resize(std::min(last + 1, chain.size()));
+  }
+
+  /// Adds the way to the nearest feature or boundary to a chain that ends so near to it.
+  void leadToCurve(std::vector<Index>& chain, double within)
+  {
+    const Index end = chain.back();
+    const std::optional<Vector3> place = isOnConstraint(halfEdgeFrom(end))
+      ? std::nullopt
+      : nearestOnCurves(mesh_, mesh_.position[end], within);
+    const std::vector<Index> way =
+      place ? connect(end, vertices({ *place }).front()) : std::vector<Index>{};
+    double length = 0;
+    for (std::size_t i = 0; i + 1 < way.size(); ++i)
+    {
+      length += (mesh_.position[way[i + 1]] - mesh_.position[way[i]]).norm();
+    }
+    if (way.size() > 1 && length <= within) // else it is on the other side of a thin wall
+    {
+      chain.insert(chain.end(), way.begin() + 1, way.end());
+    }
+  }
+
+  /// Of the pieces of a line, see insertFeatures.
+  void endOnCurves(std::vector<std::vector<Index>>& chains, const std::array<double, 2>& toCurves)
+  {
+    const auto finish = [this](std::vector<Index>& chain, double within)
+    {
+      if (within > 0 && chain.size() > 1)
+      {
+        cutBeyondCurve(chain, within);
+        leadToCurve(chain, within);
+      }
+    };
+    finish(chains.back(), toCurves[1]);
+    std::reverse(chains.front().begin(), chains.front().end());
+    finish(chains.front(), toCurves[0]);
+    std::reverse(chains.front().begin(), chains.front().end());
   }
 
   bool splitConstraint() const { return splitConstraint_; }
@@ -415,6 +468,25 @@ private:
     chain = std::move(result);
   }
 
+  /// Whether there is such an edge.
+  bool markEdge(Index a, Index b)
+  {
+    bool isThere = false;
+    forEachInFan(mesh_, halfEdgeFrom(a),
+      [&](Index h)
+      {
+        for (const Index edge : { h, Mesh::previous(h) })
+        {
+          if (mesh_.target(edge) == b || mesh_.origin[edge] == b)
+          {
+            setFeature(edge);
+            isThere = true;
+          }
+        }
+      });
+    return isThere;
+  }
+
   void setFeature(Index h)
   {
     for (const Index side : { h, Index{ mesh_.twin[h] } })
@@ -485,9 +557,30 @@ std::vector<Vector3> placesAsked(const std::vector<Asked>& requests)
 
 } // namespace
 
+std::optional<Vector3> nearestOnCurves(const Mesh& mesh, const Vector3& p, double within)
+{
+  std::optional<Vector3> best;
+  double least = within;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isConstrained(h))
+    {
+      const Vector3 q =
+        nearestOnSegment(p, mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)]);
+      const double distance = (q - p).norm();
+      if (distance < least)
+      {
+        best = q;
+        least = distance;
+      }
+    }
+  }
+  return best;
+}
+
 std::vector<std::vector<Vector3>> insertFeatures(PreparedSurface& surface,
   const std::vector<FeatureRequest>& features, const InsertionOptions& options,
-  std::vector<std::string>& notices)
+  std::vector<std::string>& notices, const std::vector<std::array<double, 2>>& toCurves)
 {
   Insertion insertion(surface, options);
   std::vector<Vector3> points;
@@ -500,7 +593,7 @@ std::vector<std::vector<Vector3>> insertFeatures(PreparedSurface& surface,
   std::size_t at = 0;
   for (const FeatureRequest& feature : features)
   {
-    paths.emplace_back(1, surface.mesh.position[vertices[at]]);
+    std::vector<std::vector<Index>> chains{ { vertices[at] } };
     for (std::size_t i = 0; i + 1 < feature.points.size(); ++i, ++at)
     {
       if (vertices[at] == vertices[at + 1])
@@ -513,15 +606,25 @@ std::vector<std::vector<Vector3>> insertFeatures(PreparedSurface& surface,
         notices.push_back("a feature curve is not followed from " + placeText(feature.points[i]) +
           " to " + placeText(feature.points[i + 1]) +
           ": the places lie on parts of the surface that are not joined; draw one line for each");
+        chains.push_back({ vertices[at + 1] });
         continue;
       }
-      insertion.mark(chain);
-      for (std::size_t k = 1; k < chain.size(); ++k)
-      {
-        paths.back().push_back(surface.mesh.position[chain[k]]);
-      }
+      chains.back().insert(chains.back().end(), chain.begin() + 1, chain.end());
     }
     ++at;
+    if (!toCurves.empty())
+    {
+      insertion.endOnCurves(chains, toCurves[paths.size()]);
+    }
+    paths.emplace_back();
+    for (const std::vector<Index>& chain : chains)
+    {
+      insertion.mark(chain);
+      for (const Index v : chain)
+      {
+        paths.back().push_back(surface.mesh.position[v]);
+      }
+    }
   }
   return paths;
 }

@@ -6,6 +6,8 @@
 
 #include "Mesh/Surface.h"
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +29,17 @@ struct InsertionOptions
 /// to the next, see pathOnMesh. Where the mesh is so fine that quads do not tell, points and paths take the vertices
 /// that are there. Returns the paths. A piece between two points on different components is left out, and told in
 /// notices, with the places.
+///
+/// toCurves: of each line how near its begin and its end, in units of the mesh, may lie to a feature or boundary
+/// without being on it; empty: as near as they are. What is drawn beyond such a curve and stays so near to where it
+/// passes it is cut off, and what ends before it is led to it: a line that ends beside a curve would leave quads there
+/// that are as narrow as what is between the two.
 std::vector<std::vector<Vector3>> insertFeatures(PreparedSurface& surface,
   const std::vector<FeatureRequest>& features, const InsertionOptions& options,
-  std::vector<std::string>& notices);
+  std::vector<std::string>& notices, const std::vector<std::array<double, 2>>& toCurves = {});
+
+/// Of features and boundaries of a mesh the place nearest to a point, at most so far away; none: there is none.
+std::optional<Vector3> nearestOnCurves(const Mesh& mesh, const Vector3& p, double within);
 
 /// Makes the sizes of vertices within the radii of the requests, with as many vertices there as it takes. orders: #V,
 /// those of the sizes that there are, or empty.

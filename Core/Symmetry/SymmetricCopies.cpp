@@ -79,7 +79,6 @@ bool SymmetryRun::copy()
   result.status = quads.status;
   if (!quads.status.ok())
   {
-    told_.notices.push_back(quads.status.message);
     return false;
   }
   locatePart(part, cut, moved);

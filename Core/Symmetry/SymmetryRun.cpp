@@ -381,6 +381,7 @@ void SymmetryRun::withFeatures(const std::function<void(Mesh&, double edgeLength
 /// Where the part is one quad wide, with twice as many quads.
 void SymmetryRun::remeshAndCopy()
 {
+  std::string firstCrowded; // where, with the number that was asked for
   for (std::size_t more = 1;; more *= 2)
   {
     countTry(Try::TwiceTheQuads, more > 1 ? 1 : 0);
@@ -389,9 +390,17 @@ void SymmetryRun::remeshAndCopy()
     const bool isCrowded = made_.remeshed.status.ok() && !copy();
     const bool hasLed = more > 1 && made_.remeshed.status.ok() && !isCrowded;
     countTryLed(Try::TwiceTheQuads, hasLed ? 1 : 0);
+    if (isCrowded && firstCrowded.empty())
+    {
+      firstCrowded = made_.remeshed.status.message;
+    }
+    if (!isCrowded && !firstCrowded.empty())
+    {
+      told_.notices.push_back(firstCrowded);
+    }
     if (!isCrowded || isStopped() || more == kMostTimesQuads)
     {
-      break;
+      break; // the last one that is crowded is told as the failure
     }
   }
 }

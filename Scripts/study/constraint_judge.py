@@ -22,6 +22,8 @@ OTHERS = 2
 #: Mean edge lengths by which the chain of a connection or loop and its course may differ, and edge lengths of the quads
 #: there within which a connection ends where its line does, as the guide has it.
 LINE = 0.5
+#: Cosine between normals on the two sides of a thin wall, at most; where a connection ends may be on its rim.
+OTHER_SIDE = -0.5
 #: Mean edge lengths within which chains are looked for, to tell by how much they are off.
 REACH = 6
 #: Closed chains longer than so many times the course go round more than once.
@@ -563,7 +565,9 @@ def judge_connection(surface, quads, course):
                                            numpy.linalg.norm(quads.points - end, axis=1)) < 4 * surface.edge)
     holds[near[surface.to_feature(quads.points[near]) <= STEP * surface.edge]] = True
     edge = [quads.edge_at(start), quads.edge_at(end)]
-    off = [numpy.linalg.norm(quads.points - p, axis=1) / e for p, e in zip((start, end), edge)]
+    sides = surface.normals[surface.nearest([start, end])[1]]
+    off = [numpy.where(quads.point_normals @ side > OTHER_SIDE, numpy.linalg.norm(quads.points - p, axis=1) / e,
+                       numpy.inf) for p, e, side in zip((start, end), edge, sides)]
     # Within three, to tell by how much the ends of what is there are off.
     best = None
     most = 8 + int(4 * course.length / min(edge))

@@ -221,11 +221,17 @@ def cut_closes(path):
     return math.dist(curve[0], curve[-1]) == 0
 
 
-def cut_of(path):
-    """The curve in which the plane through a drag and the eye cuts the quads nearest to the middle of the drag."""
+def plane_of(path):
+    """The plane through a drag and the eye: a point and the unit normal."""
     path = numpy.array(path)
     middle = path[len(path) // 2]
     normal = numpy.cross(path[-1] - path[0], middle - numpy.array(view.GetActiveCamera().GetPosition()))
+    return middle.tolist(), (normal / numpy.linalg.norm(normal)).tolist()
+
+
+def cut_of(path):
+    """The curve in which that plane cuts the quads nearest to the middle of the drag."""
+    middle, normal = plane_of(path)
     plane = vtkPlane()
     plane.SetOrigin(*middle)
     plane.SetNormal(*normal)
@@ -250,6 +256,17 @@ def last_row(kind):
     if not rows:
         return None
     return table.GetValueByName(rows[-1], "Met").ToInt(), table.GetValueByName(rows[-1], "Reason").ToString()
+
+
+def is_mirrored():
+    """Whether MirrorPoint takes each quad to a quad, and each point back to itself."""
+    array = output(0).GetPointData().GetArray("MirrorPoint")
+    if array is None:
+        return False
+    image, corners = vtk_to_numpy(array).astype(int), quad_arrays()[1]
+    quads_of = {tuple(sorted(quad)) for quad in corners.tolist()}
+    images_of = {tuple(sorted(quad)) for quad in image[corners].tolist()}
+    return quads_of == images_of and bool((image[image] == numpy.arange(len(image))).all())
 
 
 def last_remark(kind):

@@ -35,7 +35,9 @@ FEATURE_ANGLE = 40  # degrees, the default of Quad Remesh
 NEAREST = 6  # balls among which the other end of every second connection is
 UNDONE = ("Stroke", "Valence", "Feature")
 ROWS = {"Stroke": "guide stroke", "Valence": "valence", "Move": "move", "Merge": "move", "Connect": "connection",
-        "Drag": "connection", "Loop": "cycle", "Feature": "feature curve"}
+        "Drag": "connection", "Loop": "cycle", "Feature": "feature curve", "Size": "size", "Mirror": "symmetry"}
+GROWTH = 0.25  # of sizes over an edge length beyond the radius that they are asked for in, as the guide has it
+SMALLER = 0.5  # the factor that the tool bar has
 COLUMNS = ("surface", "size", "action", "tries", "drawn", "there", "met", "true", "still", "longest")
 
 
@@ -44,7 +46,7 @@ class Session(measure_window.Session):
 
     def begin(self):
         """Before an action."""
-        self.under, self.stills, self.cut = [], [], None
+        self.under, self.stills, self.plane = [], [], None
 
     def _watched(self, gesture, pixels):
         pixels = [tuple(round(c) for c in p) for p in pixels]
@@ -67,7 +69,7 @@ class Session(measure_window.Session):
 
     def path(self, chance, **shape):
         pixels, places = super().path(chance, **shape)
-        self.cut = self.value(f"[tuple(p) for p in cut_of({places!r})]")  # what a loop across a body goes along
+        self.plane = self.value(f"plane_of({places!r})")  # in which a loop across a body lies
         return pixels, places
 
     def quads_now(self):
@@ -93,17 +95,22 @@ class Session(measure_window.Session):
 
 @dataclasses.dataclass
 class Step:
-    """One action: by how much what was drawn is off, what the judge says (None where it cannot), and the word."""
+    """One action: by how much what was drawn is off, what the judge says of it (None where it cannot), the word, and
+    how far what the quads have is from where the mouse was, where that is another question."""
     off: float
     verdict: object
     met: object
     text: str = ""
+    from_mouse: float = 0
 
     def is_true(self):
         return self.verdict is None or self.met is None or bool(self.met) == self.verdict.ok
 
+    def is_there(self):
+        return self.verdict is None or (self.verdict.ok and self.from_mouse <= CLOSE)
+
     def is_good(self):
-        return self.off <= CLOSE and self.is_true() and (self.verdict is None or self.verdict.ok)
+        return self.off <= CLOSE and self.is_true() and self.is_there()
 
 
 class Walk:
@@ -124,25 +131,48 @@ class Walk:
         """Of places on the quads from before, which are chords of the surface."""
         return judge.Course(self.surface.nearest(numpy.asarray(places, float))[0], self.surface.edge)
 
+    def seen(self):
+        """What was under the mouse."""
+        return [numpy.asarray(p) for p in self.session.under if p is not None]
+
+    def from_mouse(self, name, quads, drawn):
+        """Edge lengths between what the quads have and where the mouse was; the constraint is smoothed a little. Of a
+        loop across a body its farthest point from the plane of the drag: the rest of it no mouse has drawn."""
+        under = self.seen()
+        if name == "Feature":
+            return judge.judge_feature(quads, self.course(under)).deviation
+        if name == "Drag":
+            ends = [self.ball(under[i])[0] for i in (0, -1)]
+            return judge.judge_connection(self.surface, quads,
+                                          self.course([ends[0], *under[1:-1], ends[1]])).deviation
+        if name == "Loop":
+            middle, normal = self.session.plane
+            return float(numpy.abs((numpy.asarray(drawn[1]) - middle) @ normal).max()) / self.session.edge
+        return 0
+
     def judged(self, name, quads, drawn):
         """What the quads have of it; None where it is not clear what was meant."""
-        under = [numpy.asarray(p) for p in self.session.under if p is not None]
+        under = self.seen()
         if name == "Stroke":
             return judge.judge_stroke(self.surface, quads, self.course(under), 0)
         if name == "Feature":
-            return judge.judge_feature(quads, self.course(under))
+            return judge.judge_feature(quads, self.course(drawn[1]))
         if name == "Valence":
             off = judge.judge_valence(self.surface, quads, under[-1], drawn[2])
             return judge.Verdict(off.deviation <= CLOSE, off.deviation)
         if name == "Move":
             place, valence = self.ball(under[0])
             return judge.judge_move(self.surface, quads, self.free, place, numpy.asarray(drawn[1][1]), valence)
-        if name in ("Connect", "Drag"):
-            ends = [self.ball(under[i])[0] for i in (0, -1)]
-            line = self.surface.straight(*ends, True) if name == "Connect" else [ends[0], *under[1:-1], ends[1]]
+        if name == "Drag":
+            return judge.judge_connection(self.surface, quads, self.course(drawn[1]))
+        if name == "Connect":
+            line = self.surface.straight(*(self.ball(under[i])[0] for i in (0, -1)), True)
             return None if line is None else judge.judge_connection(self.surface, quads, self.course(line))
+        if name == "Size":
+            place, radius = under[0], math.dist(under[0], under[-1])
+            return judge.judge_size(self.surface, quads, place, radius, SMALLER, GROWTH)
         if name == "Loop":
-            return judge.judge_cycle(quads, self.course(self.session.cut))
+            return judge.judge_cycle(quads, self.course([*drawn[1], drawn[1][0]]))
         return None
 
     def step(self, name, chance):
@@ -154,17 +184,21 @@ class Walk:
         session.begin()
         if name in ("Undo", "Remove"):
             return self.back(name, chance)
+        if name == "Mirror":
+            return self.mirror(chance)
         own = {"Connect": self.connect, "Drag": self.drag_connection}
         outcome = own.get(name, test_draw.ACTIONS.get(name))(session, chance)
         drawn = session.drawn()
         if not drawn:
             return Step(math.inf if outcome is test_draw.NOTHING else outcome.off, None, outcome.met, outcome.text)
-        verdict = self.judged(name, session.quads_now(), drawn)
+        quads = session.quads_now()
+        verdict, from_mouse = self.judged(name, quads, drawn), self.from_mouse(name, quads, drawn)
         if name == "Merge":
             verdict = judge.Verdict(outcome.is_true == (outcome.met == 1), 0)
         remark = session.value(f"last_remark({ROWS[name]!r})")
         told = f"judged {verdict.ok}, {verdict.deviation:.2f} {verdict.more}" if verdict else "not judged"
-        return Step(outcome.off, verdict, outcome.met, f"{told}; {outcome.text}; {remark}")
+        return Step(outcome.off, verdict, outcome.met, f"{told}, {from_mouse:.2f} from the mouse; {outcome.text}; "
+                    f"{remark}", from_mouse)
 
     def back(self, name, chance):
         """Two actions; the last one is undone, or taken away by the button."""
@@ -185,6 +219,31 @@ class Walk:
         after = session.value("bytes_of(quads())"), len(session.value("constraints()"))
         fine = after == states[0]
         return Step(0, judge.Verdict(fine, 0), 1, f"{states} {after}; {time.time() - begin:.1f} s")
+
+    def mirror(self, chance):
+        """By the list in the panel and Apply; the plane stands in the middle, across a random axis."""
+        session = self.session
+        normal = [0, 0, 0]
+        normal[chance.randrange(3)] = 1
+        session.ask(f"set_quietly('Symmetry', 'None'); set_quietly('SymmetryNormal', {normal!r})")
+        panel = (150, session.size[1] - 250)
+        session.xdotool("mousemove", *panel, "sleep", 0.1, "click", "--repeat", 20, "--delay", 30, 4)  # to its top
+        session.scroll(panel, "the panel")
+        x, y = session.find_by_change("set_quietly('Symmetry', 'None')", "set_quietly('Symmetry', 'Found')")
+        session.click((x, y), "the list Symmetry")
+        session.click((x, y + 22), "Plane in it")
+        session.apply()
+        session.settle()
+        if session.value("quads().Symmetry") != "Plane":
+            return Step(math.inf, None, None, "the list gave " + session.value("quads().Symmetry"))
+        verdict = judge.Verdict(session.value("is_mirrored()"), 0)
+        met, reason = session.word("symmetry") or (None, "no row")
+        told = session.value("verdict_of(quads())")
+        session.shot(f"walk-{session.surface.stem}-plane")
+        session.ask("set_quietly('Symmetry', 'None')")
+        session.apply()
+        session.settle()
+        return Step(0, verdict, met, f"normal {normal}, judged {verdict.ok}; {reason}; {told}")
 
     def connect(self, session, chance):
         """By clicks on two balls, every second time on one near the first."""
@@ -257,7 +316,7 @@ def walk(session, options, writer):
         session.ask("pass")
         judged = [s for s in steps if s.verdict]
         row = (session.surface.stem, session.size[0], name, len(steps), sum(s.off <= CLOSE for s in steps),
-               f"{sum(s.verdict.ok for s in judged)}/{len(judged)}", sum(s.met == 1 for s in steps),
+               f"{sum(s.is_there() for s in judged)}/{len(judged)}", sum(s.met == 1 for s in steps),
                sum(s.is_true() for s in steps), len(stills), f"{max(stills, default=(0, 0))[0]:.2f}")
         print("  ".join(f"{c} {v}" for c, v in zip(COLUMNS, row)), flush=True)
         writer.writerow(row)

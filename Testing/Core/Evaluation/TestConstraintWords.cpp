@@ -296,6 +296,46 @@ TEST(ConstraintWords, AConnectionIsMetWhereChainAndLineAreNearEachOtherBothWays)
   EXPECT_EQ(told[3].reason, asked.curves[0].why);
 }
 
+/// Both sides of a wall that is a tenth of an edge thick.
+QuadMesh thinWall()
+{
+  QuadMesh wall = plane();
+  QuadMesh below = plane();
+  const Index before = static_cast<Index>(wall.points.size());
+  for (Vector3& p : below.points)
+  {
+    p.z() = -0.1;
+  }
+  wall.points.insert(wall.points.end(), below.points.begin(), below.points.end());
+  wall.valence.insert(wall.valence.end(), below.valence.begin(), below.valence.end());
+  wall.onBoundary.insert(wall.onBoundary.end(), below.onBoundary.begin(), below.onBoundary.end());
+  for (const auto& [a, b, c, d] : below.quads)
+  {
+    wall.quads.push_back({ before + d, before + c, before + b, before + a });
+  }
+  return wall;
+}
+
+TEST(ConstraintWords, WhatLiesOnTheOtherSideOfAThinWallIsNotMeant)
+{
+  QuadMesh wall = thinWall();
+  AskedConstraints asked;
+  asked.curves.resize(1);
+  asked.placed = { placedValence({ 3, 5, 0 }, 5), placedValence({ 3, 5, 0 }, 4),
+    placedLine(ConstraintKind::Connection, { { 3, 5, 0 }, { 7, 5, 0 } }) };
+  const Index below = (kSide + 1) * (kSide + 1);
+  wall.valence[below + pointAt(3, 5)] = wall.valence[below + pointAt(7, 5)] = 5;
+  std::vector<ConstraintWord> words = judgeConstraints(asked, wall, {});
+  EXPECT_FALSE(words[0].isMet);
+  EXPECT_TRUE(words[1].isMet) << words[1].reason;
+  EXPECT_FALSE(words[2].isMet);
+  wall.valence[pointAt(3, 5)] = wall.valence[pointAt(7, 5)] = 5;
+  words = judgeConstraints(asked, wall, {});
+  EXPECT_TRUE(words[0].isMet) << words[0].reason;
+  EXPECT_FALSE(words[1].isMet);
+  EXPECT_TRUE(words[2].isMet) << words[2].reason;
+}
+
 /// Unit quads round an axis, so many round and along.
 QuadMesh tube(Index round, Index along)
 {

@@ -121,6 +121,65 @@ TEST(ConnectionEnds, ALineEndsWhereAValenceIsAskedFor)
   EXPECT_EQ(ends.drawn().drawn.valences, (std::vector<ValencePlace>{ { { 1.01, 0, 0 }, 3 } }));
 }
 
+/// Both sides of a wall, unit quads from 0 to 8, a tenth of an edge apart; side 0 is seen from above.
+Index pointOfWall(Index side, Index x, Index y)
+{
+  return (side * 9 + y) * 9 + x;
+}
+
+RemeshResult thinWall()
+{
+  RemeshResult made;
+  made.targetEdgeLength = 1;
+  QuadMesh& quads = made.quads;
+  for (const Index side : { 0U, 1U })
+  {
+    for (Index y = 0; y <= 8; ++y)
+    {
+      for (Index x = 0; x <= 8; ++x)
+      {
+        quads.points.emplace_back(x, y, -0.1 * side);
+      }
+    }
+    for (Index y = 0; y < 8; ++y)
+    {
+      for (Index x = 0; x < 8; ++x)
+      {
+        quads.quads.push_back({ pointOfWall(side, x, y), pointOfWall(side, x + 1, y),
+          pointOfWall(side, x + 1, y + 1), pointOfWall(side, x, y + 1) });
+        if (side == 1)
+        {
+          std::swap(quads.quads.back()[1], quads.quads.back()[3]);
+        }
+      }
+    }
+  }
+  quads.valence.assign(quads.points.size(), kRegularValence);
+  quads.onBoundary.assign(quads.points.size(), 0);
+  return made;
+}
+
+TEST(ConnectionEnds, AreOnTheirSideOfAThinWall)
+{
+  RemeshResult made = thinWall();
+  QuadMesh& quads = made.quads;
+  quads.valence[pointOfWall(0, 2, 4)] = 3;
+  quads.valence[pointOfWall(1, 1, 4)] = 5; // under the first end
+  // Features along x, on this side farther from the second end than on the other one.
+  quads.lines = { { pointOfWall(0, 5, 6), pointOfWall(0, 6, 6), kInvalidIndex, false },
+    { pointOfWall(1, 5, 5), pointOfWall(1, 6, 5), kInvalidIndex, false } };
+  SurfaceInput input = asking({ { { 1, 4, 0 }, { 5.5, 5, 0 } } });
+  // Held where it lay before it was smoothed, on the other side, and what is held there stays so.
+  input.drawn.valences = { { { 2, 4, -0.1 }, 3, true } };
+  const RemeshOptions options;
+  ConnectionEnds ends(input, options);
+  ASSERT_TRUE(ends.findIn(made));
+  EXPECT_EQ(input.curves[0].ends, (Valences{ 3, 0 }));
+  EXPECT_EQ(
+    input.curves[0].points, (std::vector<Vector3>{ { 1, 4, 0 }, { 5.5, 5, 0 }, { 5.5, 6, 0 } }));
+  EXPECT_EQ(input.drawn.valences.size(), 1U);
+}
+
 TEST(ConnectionEnds, ThatAreNotFoundAreTold)
 {
   RemeshResult made = quadsWithIrregular({ { { 1, 0, 0 }, 3 }, { { 6, 0, 0 }, 5 } });

@@ -430,6 +430,18 @@ struct ScanRun : TestRun
   {
     const_cast<PreparedSurface&>(*context.surface.surface).facets.isDesigned = isDesigned;
   }
+  /// Features whose middles are so are those that were asked for.
+  template <typename IsAsked>
+  void askFor(const IsAsked& isAsked)
+  {
+    Mesh& mesh = const_cast<PreparedSurface&>(*context.surface.surface).mesh;
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      const bool is = mesh.isFeature(h) &&
+        isAsked((mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2);
+      mesh.flags.edit()[h] |= is ? kRequestedFeature : 0;
+    }
+  }
   /// On an edge of the cube, in its middle.
   Index onEdge() const { return vertexAt({ 0.5, 0, 0 }); }
   Index inFace() const { return vertexAt({ 0.5, 0.5, 0 }); }
@@ -560,11 +572,20 @@ TEST(Recovery, FeaturesOfADesignAndThoseThatWereAskedForStay)
   EXPECT_TRUE(run.nextAfter(run.first(), map, failedQuads()));
   run.setDesigned(true);
   EXPECT_FALSE(run.nextAfter(run.first(), map, failedQuads()));
-  SurfaceInput input = test::toInput(test::unitCube(8));
-  input.featureEdges.assign(input.polygonOffsets.size() - 1, 0);
-  input.featureEdges.back() = 7;
-  ScanRun asked(input);
+  ScanRun asked;
+  asked.askFor([](const Vector3&) { return true; });
   EXPECT_FALSE(asked.nextAfter(asked.first(), map, failedQuads()));
+}
+
+// A line that is drawn somewhere says nothing of features that were found by their angle.
+TEST(Recovery, OnlyFeaturesThatWereAskedForStayOnAScan)
+{
+  ScanRun run;
+  run.askFor([](const Vector3& middle) { return middle.x() > 0.5; });
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  const std::optional<Plan> next = run.nextAfter(run.first(), map, failedQuads());
+  expectStep(next, "fewer features");
+  EXPECT_EQ(givenUpAt(run, *next), std::vector<double>({ 0.4375 }));
 }
 
 // Of all of them.

@@ -301,6 +301,50 @@ TEST(InsertPlaces, FeaturePathsAreEdges)
   }
 }
 
+// Drawn a little beyond an edge of the cube, or not quite as far; far beyond it; and from one edge to another one.
+TEST(InsertPlaces, AFeatureThatEndsBesideACurveEndsOnIt)
+{
+  struct Case
+  {
+    std::vector<Vector3> drawn;
+    Vector3 begin, end;
+  };
+  const std::vector<Case> cases{
+    { { { 0.3, 0.5, 1 }, { 1, 0.5, 1 }, { 1, 0.5, 0.99 } }, { 0.3, 0.5, 1 }, { 1, 0.5, 1 } },
+    { { { 0.3, 0.5, 1 }, { 0.99, 0.5, 1 } }, { 0.3, 0.5, 1 }, { 1, 0.5, 1 } },
+    { { { 0.3, 0.5, 1 }, { 1, 0.5, 1 }, { 1, 0.5, 0.9 } }, { 0.3, 0.5, 1 }, { 1, 0.5, 0.9 } },
+    { { { 0, 0.5, 0.99 }, { 0, 0.5, 1 }, { 1, 0.5, 1 }, { 1, 0.5, 0.99 } }, { 0, 0.5, 1 },
+      { 1, 0.5, 1 } },
+  };
+  for (const Case& made : cases)
+  {
+    PreparedSurface surface = prepared(unitCube(1));
+    std::vector<std::string> notices;
+    const std::array<double, 2> near{ 0.02, 0.02 };
+    const std::vector<Vector3> path =
+      insertFeatures(surface, { { made.drawn } }, { 0.1, 1 }, notices, { near }).front();
+    EXPECT_LT((path.front() - made.begin).norm(), 1e-12) << path.front().transpose();
+    EXPECT_LT((path.back() - made.end).norm(), 1e-12) << path.back().transpose();
+    double length = 0;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    {
+      length += (path[i + 1] - path[i]).norm();
+    }
+    EXPECT_NEAR(requestedLength(surface.mesh), length, 1e-12);
+  }
+}
+
+// A line over itself: what its end crosses is cut in parts, all of which are features.
+TEST(InsertPlaces, AFeatureMayCrossItself)
+{
+  PreparedSurface surface = prepared(unitCube(1));
+  std::vector<std::string> notices;
+  const std::vector<Vector3> drawn{ { 0.2, 0.5, 1 }, { 0.8, 0.5, 1 }, { 0.8, 0.8, 1 },
+    { 0.53, 0.8, 1 }, { 0.53, 0.2, 1 } };
+  insertFeatures(surface, { { drawn } }, { 0.1, 1 }, notices);
+  EXPECT_NEAR(requestedLength(surface.mesh), 0.6 + 0.3 + 0.27 + 0.6, 1e-9);
+}
+
 TEST(InsertPlaces, AFeatureAlongEdgesAddsNothing)
 {
   PreparedSurface surface = prepared(unitCube(4));

@@ -438,6 +438,17 @@ TEST(Symmetry, ATubeThatIsOneQuadWideGetsMore)
   EXPECT_TRUE(hasNotice(made, "one quad wide"));
 }
 
+TEST(Symmetry, ATubeThatStaysOneQuadWideIsToldOnce)
+{
+  RemeshOptions options = aboutQuads(80);
+  options.smallDetails = SmallDetails::Keep;
+  const SymmetricResult made =
+    remeshSymmetric(toInput(torus(160, 12, 1, 0.012)), options, about({ 0, 0, 0 }, { 0, 0, 1 }));
+  EXPECT_NE(made.remeshed.status.message.find("one quad wide"), std::string::npos)
+    << made.remeshed.status.message;
+  EXPECT_FALSE(hasNotice(made, "one quad wide"));
+}
+
 TEST(Symmetry, CurvesOfTheOtherSideAreMirrored)
 {
   SurfaceInput input = toInput(torus(60, 30));
