@@ -291,7 +291,8 @@ void vtkQuadrilleAlgorithm::GroupBlocks(Run& run)
       whole.AddBox(box);
     }
   }
-  const double margin = whole.IsValid() ? quadrille::kSamePlace * whole.GetDiagonalLength() : 0;
+  const double margin =
+    whole.IsValid() ? quadrille::kRoundingOfSingle * whole.GetDiagonalLength() : 0;
   quadrille::DisjointSets groups(run.works.size(), 1);
   for (std::size_t i = 0; i < boxes.size(); ++i)
   {

@@ -91,7 +91,7 @@ private:
     {
       whole.extend(Vector3(Vector3::Zero()));
     }
-    tolerance_ = kSamePlace * whole.diagonal().norm();
+    tolerance_ = kRoundingOfSingle * whole.diagonal().norm();
     lowest_ = whole.min();
     isCommon_.assign(placeOf_.size(), 0);
     for (Index i = 0; i < placeOf_.size(); ++i)
@@ -207,7 +207,7 @@ private:
   /// Of the cell, or one of its neighbours in front.
   static std::uint64_t cellKey(const Eigen::Array3d& cell, int corner)
   {
-    constexpr int bits = 21; // 1 / (2 kSamePlace) cells along the diagonal, and some
+    constexpr int bits = 21; // 1 / (2 kRoundingOfSingle) cells along the diagonal, and some
     std::uint64_t result = 0;
     for (int axis = 0; axis < 3; ++axis)
     {

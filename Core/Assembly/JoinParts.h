@@ -3,8 +3,8 @@
 /// Several surfaces, parts of an assembly, become one where they have edges in common.
 ///
 /// Two parts have an edge in common where the ends of an edge of the one lie at the places of the ends of an edge of
-/// the other, up to kSamePlace of the box round all. Parts that only touch in a point, or along curves on which each
-/// has points of its own, have none.
+/// the other, up to kRoundingOfSingle of the box round all. Parts that only touch in a point, or along curves on which
+/// each has points of its own, have none.
 #pragma once
 
 #include "Mesh/Surface.h"
@@ -17,10 +17,6 @@
 
 namespace quadrille
 {
-
-/// How far points of two parts may lie from each other to be one, over the diagonal of the box round all parts: what is
-/// lost when coordinates go through single precision or a file with seven digits, with some margin.
-constexpr double kSamePlace = 1.0 / (1 << 20);
 
 /// What parts have in common.
 struct PartContacts

@@ -77,12 +77,12 @@ void JointChains::findNodes()
   }
   for (const FineLoop& loop : fineLoops_)
   {
-    Index before = kNoJoint, first = kNoJoint;
+    Index before = kInvalidIndex, first = kInvalidIndex;
     for (std::size_t i = 0; i < loop.halfEdges.size(); ++i)
     {
       const Index point = loop.jointPoint[i];
       const Index v = mesh_.origin[loop.halfEdges[i]];
-      if (point == kNoJoint)
+      if (point == kInvalidIndex)
       {
         continue;
       }
@@ -90,14 +90,14 @@ void JointChains::findNodes()
       {
         nodes_.insert(point);
       }
-      if (before != kNoJoint)
+      if (before != kInvalidIndex)
       {
         sheetsAt[sortedPair(before, point)].insert(loop.sheet);
       }
-      first = first == kNoJoint ? point : first;
+      first = first == kInvalidIndex ? point : first;
       before = point;
     }
-    if (first != kNoJoint)
+    if (first != kInvalidIndex)
     {
       sheetsAt[sortedPair(before, first)].insert(loop.sheet);
     }
@@ -200,7 +200,7 @@ void JointChains::findChains()
   {
     const FineLoop& loop = fineLoops_[l];
     const auto isOnJoint = [&](Index point)
-    { return point != kNoJoint && neighbours_.count(point) != 0; };
+    { return point != kInvalidIndex && neighbours_.count(point) != 0; };
     const auto at = std::find_if(loop.jointPoint.begin(), loop.jointPoint.end(), isOnJoint);
     if (hasQuads[l] == 0 && at != loop.jointPoint.end())
     {
@@ -228,12 +228,12 @@ void JointChains::addLoop(const FineLoop& fine, const std::vector<std::pair<doub
   std::vector<Stop> stops;
   for (std::size_t i = 0; i < fine.halfEdges.size(); ++i)
   {
-    if (fine.jointPoint[i] == kNoJoint || nodes_.count(fine.jointPoint[i]) == 0)
+    if (fine.jointPoint[i] == kInvalidIndex || nodes_.count(fine.jointPoint[i]) == 0)
     {
       continue;
     }
-    Index next = kNoJoint;
-    for (std::size_t k = 1; k <= fine.halfEdges.size() && next == kNoJoint; ++k)
+    Index next = kInvalidIndex;
+    for (std::size_t k = 1; k <= fine.halfEdges.size() && next == kInvalidIndex; ++k)
     {
       next = fine.jointPoint[(i + k) % fine.halfEdges.size()];
     }
@@ -310,7 +310,7 @@ void JointChains::chooseNumbers()
   {
     for (const SheetChain& chain : loop.chains)
     {
-      if (chain.segment != kNoJoint)
+      if (chain.segment != kInvalidIndex)
       {
         std::size_t& edges = segments_[chain.segment].edges;
         edges = std::max(edges, chain.edges());
@@ -369,13 +369,13 @@ bool JointChains::hasFree(Index sheet) const
     {
       return loop.sheet == sheet &&
         std::any_of(loop.chains.begin(), loop.chains.end(),
-          [](const SheetChain& chain) { return chain.segment == kNoJoint; });
+          [](const SheetChain& chain) { return chain.segment == kInvalidIndex; });
     });
 }
 
 std::size_t JointChains::lackOf(const SheetChain& chain) const
 {
-  return chain.segment == kNoJoint ? 0 : segments_[chain.segment].edges - chain.edges();
+  return chain.segment == kInvalidIndex ? 0 : segments_[chain.segment].edges - chain.edges();
 }
 
 std::size_t JointChains::lackOf(Index sheet) const

@@ -31,7 +31,7 @@ struct JointSegment
 /// What a sheet's quads have along a segment, or along its own boundary between two nodes.
 struct SheetChain
 {
-  Index segment = kNoJoint;
+  Index segment = kInvalidIndex;
   bool isForward = true;
   std::vector<Index> points; ///< of the quads, at least one
   std::size_t edges() const { return points.size() - 1; }

@@ -77,7 +77,7 @@ bool JointStrips::takesEnd(const ChainPlace& from, const ChainPlace& to) const
 {
   const SheetChain& chain = loops_[to.loop].chains[to.chain];
   const bool isSame = to.loop == from.loop && to.chain == from.chain;
-  return chain.segment == kNoJoint || chains_.lackOf(chain) >= (isSame ? 2U : 1U);
+  return chain.segment == kInvalidIndex || chains_.lackOf(chain) >= (isSame ? 2U : 1U);
 }
 
 void JointStrips::raise(const ChainPlace& from, const ChainPlace& to)
@@ -104,7 +104,7 @@ bool JointStrips::insertFrom(const ChainPlace& from, bool mayRaise)
       {
         continue;
       }
-      const double cost = !takes ? raiseCost : chain.segment == kNoJoint ? freeCost : 0;
+      const double cost = !takes ? raiseCost : chain.segment == kInvalidIndex ? freeCost : 0;
       for (const Index p : chain.points)
       {
         const double atPoint = cost + crowdedCost(p);
@@ -241,7 +241,7 @@ void JointStrips::spreadOnBoundary(const ChainPlace& place, Index point)
   constexpr double share = 1.0 / 3;
   const SheetChain& chain = loops_[place.loop].chains[place.chain];
   const auto at = std::find(chain.points.begin(), chain.points.end(), point);
-  if (chain.segment != kNoJoint || at == chain.points.begin() || at + 1 >= chain.points.end())
+  if (chain.segment != kInvalidIndex || at == chain.points.begin() || at + 1 >= chain.points.end())
   {
     return;
   }
@@ -320,20 +320,15 @@ void JointStrips::splitAt(const ChainPlace& place, Index point, Index copy, bool
 
 void JointStrips::spread(const InsertedStrip& strip)
 {
-  constexpr double share = 1.0 / 3;
-  std::map<Index, std::vector<Index>> neighbours = pointsBeside(strip, quads_.quads);
-  for (std::size_t i = 1; i + 1 < strip.points.size(); ++i)
+  std::map<Index, Vector3> ways = waysApart(strip, quads_);
+  for (const auto& [p, q] : { strip.points.front(), strip.points.back() })
   {
-    for (const Index p : { strip.points[i].first, strip.points[i].second })
-    {
-      Vector3 sum = Vector3::Zero();
-      for (const Index q : neighbours[p])
-      {
-        sum += quads_.points[q] - quads_.points[p];
-      }
-      const double count = std::max(1.0, static_cast<double>(neighbours[p].size()));
-      goTowards(p, share / count * sum);
-    }
+    ways.erase(p);
+    ways.erase(q);
+  }
+  for (const auto& [p, way] : ways)
+  {
+    goTowards(p, way);
   }
 }
 

@@ -13,7 +13,7 @@ namespace quadrille
 Index SheetBorders::inputAt(Index corner) const
 {
   const Index point = result_.surface.inputPointAt(corner);
-  return point == kInvalidIndex ? kNoJoint : point;
+  return point == kInvalidIndex ? kInvalidIndex : point;
 }
 
 void SheetBorders::findFineLoops()
@@ -34,7 +34,7 @@ void SheetBorders::findFineLoops()
       loop.halfEdges.push_back(g);
       loop.arc.push_back(loop.arc.back() + mesh_.edgeVector(g).norm());
       const Index input = inputAt(g);
-      loop.jointPoint.push_back(input == kNoJoint ? kNoJoint : sheets_.jointPoint[input]);
+      loop.jointPoint.push_back(input == kInvalidIndex ? kInvalidIndex : sheets_.jointPoint[input]);
     }
   }
 }

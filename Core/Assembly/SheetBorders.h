@@ -15,15 +15,13 @@
 namespace quadrille
 {
 
-constexpr Index kNoJoint = kInvalidIndex;
-
 /// A boundary loop of the surface: half-edges in order, with what of the input lies there.
 struct FineLoop
 {
   Index sheet = 0;
   std::vector<Index> halfEdges;
   std::vector<double> arc;       ///< of the origin of each; the length of the loop at the end
-  std::vector<Index> jointPoint; ///< at the origin of each, or kNoJoint
+  std::vector<Index> jointPoint; ///< at the origin of each, or kInvalidIndex
 };
 
 class SheetBorders

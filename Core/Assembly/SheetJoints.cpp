@@ -87,12 +87,12 @@ private:
     }
     std::map<Index, std::vector<Index>> atNode; // points of the quads
     std::map<std::pair<Index, std::size_t>, std::vector<Index>> atStop;
-    target_.assign(quads_.points.size(), kNoJoint);
+    target_.assign(quads_.points.size(), kInvalidIndex);
     for (const SheetLoop& loop : loops_)
     {
       for (const SheetChain& chain : loop.chains)
       {
-        if (chain.segment == kNoJoint)
+        if (chain.segment == kInvalidIndex)
         {
           continue;
         }
@@ -136,7 +136,7 @@ private:
     for (QuadLine& line : quads_.lines)
     {
       const bool isOnJoint =
-        line.boundary && target_[line.a] != kNoJoint && target_[line.b] != kNoJoint;
+        line.boundary && target_[line.a] != kInvalidIndex && target_[line.b] != kInvalidIndex;
       if (line.halfEdge == kInvalidIndex)
       {
         line.halfEdge = borders_
@@ -240,7 +240,7 @@ private:
     }
     for (Index p = 0; p < quads_.points.size(); ++p)
     {
-      const bool isPlaced = p < target_.size() && target_[p] != kNoJoint;
+      const bool isPlaced = p < target_.size() && target_[p] != kInvalidIndex;
       quads_.points[p] = isPlaced
         ? places_[target_[p]]
         : Vector3(quads_.points[p] - sheets_.offset[borders_.sheetOfFace(quads_.sourceFace[p])]);
@@ -273,7 +273,7 @@ private:
   JointStrips strips_;
   std::vector<JointSegment>& segments_;
   const std::vector<SheetLoop>& loops_;
-  std::vector<Index> target_; ///< per point of the quads: its place on a joint, or kNoJoint
+  std::vector<Index> target_; ///< per point of the quads: its place on a joint, or kInvalidIndex
   std::vector<Vector3> places_;
 };
 

@@ -16,7 +16,7 @@
 namespace quadrille
 {
 
-/// Bytes between two looks at the clock: 4 ms of fresh memory.
+/// Bytes that are taken at a time, between two looks at the clock: 4 ms of fresh memory.
 constexpr std::size_t kLargeArrayStep = std::size_t{ 1 } << 23;
 
 /// values.resize(count, value...), with poll() in between; values must not have more already.

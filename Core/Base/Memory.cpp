@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Memory.h"
 
+#include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 
 #include <cstdint>
@@ -13,6 +14,7 @@
 #endif
 #if defined(__linux__)
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 namespace quadrille
@@ -61,18 +63,16 @@ void keepFreedMemory()
 void provideMemory(void* begin, std::size_t bytes, int threads)
 {
 #if defined(__linux__)
-  constexpr std::uintptr_t kPage = 4096;
-  constexpr std::size_t kStep = std::size_t{ 1 } << 22;
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   constexpr int kPopulateWrite =
     23; // MADV_POPULATE_WRITE; a kernel before 5.14 refuses it, and pages come later
-  const std::uintptr_t first =
-    (reinterpret_cast<std::uintptr_t>(begin) + kPage - 1) / kPage * kPage;
-  const std::uintptr_t last = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / kPage * kPage;
-  if (last <= first || last - first < kStep)
+  const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page;
+  const std::uintptr_t last = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / page * page;
+  if (last <= first || last - first < kLargeArrayStep)
   {
     return;
   }
-  parallelFor(last - first, kStep, threads,
+  parallelFor(last - first, kLargeArrayStep, threads,
     [first](std::size_t from, std::size_t to)
     {
       // NOLINTNEXTLINE(performance-no-int-to-ptr): an address of the same array

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -18,9 +19,6 @@ thread_local PlaceFold* currentPlaceFold = nullptr;
 
 /// What a stream takes by default.
 constexpr int kLeastDigits = 6;
-constexpr int kMostDigits = 17;
-/// Of the largest coordinate: what is less is what rounding has left of zero.
-constexpr double kRoundedShare = 1e-12;
 
 /// Of places that lie `unit` from each other at most.
 int digitsFor(double magnitude, double unit)
@@ -29,8 +27,8 @@ int digitsFor(double magnitude, double unit)
   {
     return kLeastDigits;
   }
-  return std::min(
-    kMostDigits, kLeastDigits + static_cast<int>(std::ceil(std::log10(magnitude / unit))));
+  return std::min(std::numeric_limits<double>::max_digits10,
+    kLeastDigits + static_cast<int>(std::ceil(std::log10(magnitude / unit))));
 }
 
 } // namespace
@@ -77,7 +75,7 @@ std::string placeText(const Vector3& p)
   {
     place = currentPlaceFold->fold_(place);
   }
-  const double least = kRoundedShare * place.cwiseAbs().maxCoeff();
+  const double least = kLastDigits * place.cwiseAbs().maxCoeff();
   place = place.unaryExpr([least](double x) { return std::abs(x) < least ? 0.0 : x; });
   text << "(" << place.x() << ", " << place.y() << ", " << place.z() << ")";
   return text.str();

@@ -67,10 +67,7 @@ private:
 /// Throws Cancelled when the callback of the thread's run asks to stop. Does nothing on threads without a run.
 void poll();
 
-/// How many steps of a microsecond and more there are between polls.
-constexpr std::size_t kLongSteps = std::size_t{ 1 } << 8;
-
-/// poll() in a loop of short steps: every so many of them, a power of two.
+/// poll() in a loop of short steps: every so many of them, a power of two; kHeavyChunk for those of a microsecond.
 inline void pollNowAndThen(std::size_t step, std::size_t stepsBetween = std::size_t{ 1 } << 16)
 {
   if ((step & (stepsBetween - 1)) == 0)

@@ -20,12 +20,15 @@ using Index = std::uint32_t;
 constexpr Index kInvalidIndex = std::numeric_limits<Index>::max();
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr float kInfinityOfSingle = std::numeric_limits<float>::infinity();
 
 /// What rounding may leave of a length, an area or a weight that is zero, over the largest of its kind, or of the
 /// difference of two that are equal.
 constexpr double kRounding = 1e-9;
 /// The same where coordinates may have been stored in single precision on the way.
 constexpr double kRoundingOfSingle = 1e-6;
+/// The last digits of a double, over its size: what a few operations with it may change.
+constexpr double kLastDigits = 1e-12;
 
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;

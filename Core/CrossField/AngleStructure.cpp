@@ -14,9 +14,8 @@ namespace quadrille
 namespace
 {
 
-// Angles are integers, so that the answer is exact.
-constexpr std::int64_t kQuarterTurn = 360;
-constexpr std::int64_t kSmallestAngle = 4; // one degree
+// Angles are integers, in degrees, so that the answer is exact; none is below one.
+constexpr std::int64_t kQuarterTurn = 90;
 
 // Nodes are triangles, then fans. A triangle above half a turn passes angle on: it lowers its corner at a fan, which
 // raises the corner of another triangle there, until a triangle below half a turn takes it.
@@ -92,7 +91,7 @@ private:
   void spreadTurns(Index i, int turns)
   {
     const Fan& fan = topology_.fans[i];
-    std::int64_t left = kQuarterTurn * turns - kSmallestAngle * fan.corners;
+    std::int64_t left = kQuarterTurn * turns - fan.corners;
     fit_ = fit_ && left >= 0;
     left = std::max<std::int64_t>(left, 0);
     double angleLeft = fan.angle;
@@ -103,7 +102,7 @@ private:
       const std::int64_t part = h + 1 == corners_.end(i)
         ? left
         : static_cast<std::int64_t>(share * static_cast<double>(left));
-      angle_[*h] = kSmallestAngle + part;
+      angle_[*h] = 1 + part;
       left -= part;
       angleLeft -= own;
     }
@@ -131,7 +130,7 @@ private:
         const Index corner = cornerOf(node, k);
         const Index other = otherEnd(node, corner);
         const bool isLeaving = (node < faces_) == forward;
-        if (level_[other] == kInvalidIndex && (!isLeaving || angle_[corner] > kSmallestAngle))
+        if (level_[other] == kInvalidIndex && (!isLeaving || angle_[corner] > 1))
         {
           level_[other] = level_[node] + 1;
           queue.push_back(other);
@@ -153,8 +152,7 @@ private:
       {
         const Index corner = cornerOf(node, next_[node]);
         const Index other = otherEnd(node, corner);
-        if (level_[other] == level_[node] + 1 &&
-          (node >= faces_ || angle_[corner] > kSmallestAngle))
+        if (level_[other] == level_[node] + 1 && (node >= faces_ || angle_[corner] > 1))
         {
           path_.push_back(corner);
           node = other;
@@ -175,7 +173,7 @@ private:
     std::int64_t amount = std::min(surplus_[f], -surplus_[node]);
     for (std::size_t i = 0; i < path_.size(); i += 2)
     {
-      amount = std::min(amount, angle_[path_[i]] - kSmallestAngle);
+      amount = std::min(amount, angle_[path_[i]] - 1);
     }
     for (std::size_t i = 0; i < path_.size(); ++i)
     {

@@ -14,10 +14,6 @@ namespace quadrille
 namespace
 {
 
-// Of an edge without length, which still joins its faces: a face of such edges would be free to turn. Others have about
-// 1.
-constexpr double kLeastWeight = 1e-9;
-
 /// Where two corners of a face lie in one place, no direction gives their angles; they still have to add up to half a
 /// turn, or the turns counted round a vertex would not be those of the matchings. Such a face counts as the limit of an
 /// isosceles one, and a face in one point as equilateral.
@@ -123,7 +119,7 @@ void measureEdges(const Mesh& mesh, FieldTopology& topology)
     // Length over the distance of the barycentres; unlike cotangents it is positive for any triangle.
     const double length = topology.edgeLength[h];
     const double areas = topology.area[Mesh::face(h)] + topology.area[Mesh::face(twin)];
-    const double weight = std::max(kLeastWeight, 1.5 * length * length / areas);
+    const double weight = std::max(kRounding, 1.5 * length * length / areas);
     topology.edgeWeight[h] = topology.edgeWeight[twin] = weight;
   }
 }

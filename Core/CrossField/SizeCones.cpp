@@ -27,7 +27,6 @@ constexpr double kMostCotangent = 1e6;
 constexpr double kPull = 1e-6;
 /// Vertices that turns may move between, about; each is a solve.
 constexpr std::size_t kMostConePlaces = 500;
-constexpr int kMostMoves = 100;
 /// Columns of a product that are computed at once.
 constexpr Eigen::Index kBlock = 64;
 
@@ -220,7 +219,7 @@ public:
   bool improve()
   {
     bool any = false;
-    for (int move = 0; move < kMostMoves && moveBest(); ++move)
+    while (moveBest())
     {
       poll();
       any = true;
@@ -292,7 +291,7 @@ private:
       mayGain[i] = mayHave(i, places_[i].turns + 1) ? 1 : 0;
       mayLose[i] = mayHave(i, places_[i].turns - 1) ? 1 : 0;
     }
-    double best = 0;
+    double best = -kRounding * worth_; // less would go to and fro
     Index to = kInvalidIndex, from = kInvalidIndex;
     for (Index i = 0; i < count; ++i)
     {

@@ -18,9 +18,6 @@ namespace quadrille
 namespace
 {
 
-/// The least height of a triangle of a fan over its edge on the loop, as a part of the loop's length: above rounding.
-constexpr double kLeastFanHeight = 1e-6;
-
 double triangleArea(const Vector3& a, const Vector3& b, const Vector3& c)
 {
   return (b - a).cross(c - a).norm() / 2;
@@ -59,7 +56,7 @@ bool hasRoom(const Mesh& mesh, const std::vector<Index>& run, const Vector3& mid
         const double triangle =
           triangleArea(mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)], middle);
         area += triangle;
-        return 2 * triangle > kLeastFanHeight * length * mesh.edgeVector(h).norm();
+        return 2 * triangle > kRoundingOfSingle * length * mesh.edgeVector(h).norm();
       });
 }
 

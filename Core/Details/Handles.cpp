@@ -23,7 +23,6 @@ constexpr std::size_t kMaximumVisits = 3000000;
 constexpr std::size_t kMaximumClasses = 20000;
 /// Generators where a search for the shortest loop begins, and vertices of a loop where it goes on.
 constexpr std::size_t kStarts = 16;
-constexpr std::size_t kStartsOnLoop = 8;
 
 /// Short loops of all classes that are met, shortest first.
 std::vector<LoopSearch::Loop> shortLoops(LoopSearch& search, double limit, bool& complete)
@@ -91,7 +90,7 @@ std::optional<LoopSearch::Loop> tightenedLoop(LoopSearch& search)
         return best;
       }
     }
-    starts = shorter ? spaced(best->vertices, kStartsOnLoop) : std::vector<Index>();
+    starts = shorter ? spaced(best->vertices, kStarts) : std::vector<Index>();
   }
   return best;
 }

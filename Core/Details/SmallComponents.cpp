@@ -18,9 +18,6 @@ namespace quadrille
 namespace
 {
 
-/// An area is known to this factor without summing it up anew.
-constexpr double kMoreThanRounding = 1.001;
-
 /// quadsOfBlock for a mesh of one component in which each vertex has a face.
 double blockOfConnected(const Mesh& mesh, int threads)
 {
@@ -42,8 +39,7 @@ SmallComponents findSmallComponents(
   const double quad = edgeLength * edgeLength;
   small.components = surface.components;
   if (surface.components <= 1 && mesh.sizing.empty() &&
-    (surface.area > kSurelyLargeSurface * quad ||
-      surface.area > kMoreThanRounding * blockOfConnected(mesh, threads) * quad))
+    surface.area > (1 + kRoundingOfSingle) * blockOfConnected(mesh, threads) * quad)
   {
     return small;
   }

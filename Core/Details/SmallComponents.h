@@ -13,9 +13,6 @@
 namespace quadrille
 {
 
-/// A connected surface with the area of so many quads is not small, whatever its topology.
-constexpr double kSurelyLargeSurface = 1e4;
-
 /// One of them.
 struct SmallComponent
 {

@@ -362,10 +362,9 @@ private:
   /// but never more than the straight element can have.
   double leastWanted(Index q) const
   {
-    constexpr double kPartOfArea = 1e-6;
     const std::array<Vector3, 4> p = cornersOfQuad(q);
     const Vector3 area = centreNormal(p);
-    double least = kPartOfArea * area.norm() / 16; // of the straight element at its centre
+    double least = kRoundingOfSingle * area.norm() / 16; // of the straight element at its centre
     const Vector3 normal = area.stableNormalized();
     for (std::size_t i = 0; i < 4; ++i)
     {

@@ -22,9 +22,8 @@ namespace
 {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-/// Places at which a constraint is measured, and all of them together, at most: a mean over so many has an error of a
-/// fiftieth of the spread, a tenth of a degree. More of them would take longer than the map of a scan.
-constexpr std::size_t kMostGuidePlaces = 2500;
+/// Places at which all constraints together are measured, at most, and each of many at least: a mean over 2,500 has an
+/// error of a fiftieth of the spread, a tenth of a degree. More of them would take longer than the map of a scan.
 constexpr std::size_t kMostPlacesOfAll = 20000;
 constexpr std::size_t kLeastGuidePlaces = 100;
 
@@ -113,8 +112,7 @@ double percentile95(std::vector<WeightedDeviation> values)
 
 std::size_t mostPlacesOf(std::size_t guides)
 {
-  return std::clamp(
-    kMostPlacesOfAll / std::max<std::size_t>(guides, 1), kLeastGuidePlaces, kMostGuidePlaces);
+  return std::max(kMostPlacesOfAll / std::max<std::size_t>(guides, 1), kLeastGuidePlaces);
 }
 
 std::size_t strideOf(std::size_t count, std::size_t most)

@@ -18,9 +18,6 @@ namespace quadrille
 namespace
 {
 
-/// Units that the longest way gets as an integer cost.
-constexpr double kUnitsOfLongest = 1e6;
-
 void requireTurns(const Mesh& mesh, const std::vector<int>& turns)
 {
   refuseIf(turns.size() != mesh.vertexCount(), "There are quarter turns for ", turns.size(),

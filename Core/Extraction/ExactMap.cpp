@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/ExactMap.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ void note(MapCheck& check, MapDefect kind, Index face)
 {
   ++check.count[kind];
   std::vector<Index>& named = check.faces[kind];
-  if (named.size() < kNamedPlaces && (named.empty() || named.back() != face))
+  if (named.size() < kMostTold && (named.empty() || named.back() != face))
   {
     named.push_back(face);
   }
@@ -131,7 +132,7 @@ void merge(MapCheck& into, const MapCheck& from)
     into.count[kind] += from.count[kind];
     for (const Index f : from.faces[kind])
     {
-      if (into.faces[kind].size() < kNamedPlaces)
+      if (into.faces[kind].size() < kMostTold)
       {
         into.faces[kind].push_back(f);
       }

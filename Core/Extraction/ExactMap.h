@@ -106,9 +106,6 @@ enum MapDefect
   kMapDefects   ///< number of kinds
 };
 
-/// Faces and places that a message names, at most.
-constexpr std::size_t kNamedPlaces = 8;
-
 /// The exact check in front of the extraction.
 struct MapCheck
 {

@@ -79,8 +79,8 @@ Status statusOf(const std::string& isNot, const std::string& problem, const MapC
 std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& points)
 {
   const std::vector<Index> few(points.begin(),
-    points.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), kNamedPlaces)));
-  return joined(few, kNamedPlaces, [&](Index p) { return placeText(mesh.points[p]); });
+    points.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), kMostTold)));
+  return joined(few, kMostTold, [&](Index p) { return placeText(mesh.points[p]); });
 }
 
 /// Compares with the input surface, of whose boundary loops some are covered. Empty when the quad

@@ -88,7 +88,7 @@ std::string FeatureEnds::text(const Mesh& mesh) const
       return;
     }
     result += (result.empty() ? "" : ", ") + std::to_string(list.size()) + " " + what + " (near " +
-      joined(list, kNamedPlaces, [&](Index id) { return placeText(mesh.position[vertexOf(id)]); }) +
+      joined(list, kMostTold, [&](Index id) { return placeText(mesh.position[vertexOf(id)]); }) +
       ")";
   };
   add(nonInteger, "ends, corners or junctions of features that are no integer points",

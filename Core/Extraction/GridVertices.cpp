@@ -23,9 +23,6 @@ SurfacePoint placeOnEdge(const ExactMap& map, const GridVertex& vertex)
   return CurvePoint{ vertex.site, t }.onSurface();
 }
 
-/// Corners of a vertex that are searched one by one.
-constexpr std::size_t kLargeFan = 64;
-
 std::int64_t ceilUnit(std::int64_t x)
 {
   return (x + kOne - 1) & ~(kOne - 1);
@@ -286,39 +283,14 @@ GridVertices::GridVertices(const ExactMap& map, int threads)
         faceFirst_[f + 1] += firstVertex[chunk];
       }
     });
-  for (std::size_t chunk = 0; chunk < parts.size(); ++chunk)
-  {
-    for (FanCorner corner : parts[chunk].largeFans)
-    {
-      corner.vertex += firstVertex[chunk];
-      largeFans_.push_back(corner);
-    }
-  }
-  std::sort(largeFans_.begin(), largeFans_.end(),
-    [](const FanCorner& a, const FanCorner& b) { return a.halfEdge < b.halfEdge; });
 }
 
 void GridVertices::numberPorts(Part& part, Index q) const
 {
   GridVertex& vertex = part.vertices[q];
   vertex.firstPort = part.ports;
-  if (vertex.kind != Site::Vertex)
-  {
-    visitSectors(
-      vertex, [&](const Sector& sector) { part.ports += static_cast<Index>(sector.count); });
-    return;
-  }
-  const std::size_t first = part.largeFans.size();
-  forEachFrom(map_.mesh, vertex.site,
-    [&](Index h)
-    {
-      part.largeFans.push_back({ h, q, part.ports - vertex.firstPort });
-      part.ports += static_cast<Index>(cornerSector(h).count);
-    });
-  if (part.largeFans.size() - first <= kLargeFan)
-  {
-    part.largeFans.resize(first);
-  }
+  visitSectors(
+    vertex, [&](const Sector& sector) { part.ports += static_cast<Index>(sector.count); });
 }
 
 Sector GridVertices::faceSector(const GridVertex& vertex) const
@@ -360,13 +332,6 @@ Sector GridVertices::cornerSector(Index h) const
   return sector;
 }
 
-const GridVertices::FanCorner* GridVertices::findInLargeFans(Index h) const
-{
-  const auto found = std::lower_bound(largeFans_.begin(), largeFans_.end(), h,
-    [](const FanCorner& corner, Index halfEdge) { return corner.halfEdge < halfEdge; });
-  return found != largeFans_.end() && found->halfEdge == h ? &*found : nullptr;
-}
-
 std::optional<Index> GridVertices::findRecord(Site kind, Index site, FixedVec2 uv) const
 {
   GridVertex key;
@@ -402,10 +367,6 @@ std::optional<Index> GridVertices::findCorner(Index h) const
   {
     return std::nullopt;
   }
-  if (const FanCorner* corner = findInLargeFans(h))
-  {
-    return corner->vertex;
-  }
   const Index corner = canonicalCorner(map_.mesh, h);
   return findRecord(Site::Vertex, corner, map_.at(corner));
 }
@@ -438,13 +399,6 @@ std::optional<Index> GridVertices::find(Index f, FixedVec2 point) const
 
 Index GridVertices::rankOfSector(Index q, Index halfEdge) const
 {
-  if (vertices_[q].kind == Site::Vertex)
-  {
-    if (const FanCorner* corner = findInLargeFans(halfEdge))
-    {
-      return corner->rank;
-    }
-  }
   Index rank = 0;
   bool found = false;
   visitSectors(vertices_[q],

@@ -114,18 +114,10 @@ public:
   }
 
 private:
-  /// A corner of a mesh vertex with very many corners, so that it need not be searched there.
-  struct FanCorner
-  {
-    Index halfEdge;
-    Index vertex; ///< grid vertex
-    Index rank;   ///< number of ports before it
-  };
   /// Of a chunk of faces.
   struct Part
   {
     std::vector<GridVertex> vertices;
-    std::vector<FanCorner> largeFans;
     Index ports = 0;
   };
 
@@ -141,7 +133,6 @@ private:
   Sector edgeSector(Index h, FixedVec2 point) const;
   Sector cornerSector(Index h) const;
   void numberPorts(Part& part, Index q) const;
-  const FanCorner* findInLargeFans(Index h) const;
   std::optional<Index> findRecord(Site kind, Index site, FixedVec2 uv) const;
   std::optional<Index> findOnEdge(Index h, FixedVec2 point) const;
   Index rankOfSector(Index q, Index halfEdge) const;
@@ -208,8 +199,7 @@ private:
 
   ExactMap map_;
   std::vector<GridVertex> vertices_;
-  std::vector<Index> faceFirst_;     ///< #F + 1 offsets into vertices_
-  std::vector<FanCorner> largeFans_; ///< by half-edge
+  std::vector<Index> faceFirst_; ///< #F + 1 offsets into vertices_
   Index portCount_ = 0;
 };
 

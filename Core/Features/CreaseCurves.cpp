@@ -25,7 +25,6 @@ namespace
 
 /// How far the two sides of a crease are looked at, and how far apart the places are, over the edge length.
 constexpr double kSideWidth = 0.5;
-constexpr double kPlaceDistance = 0.5;
 /// A short curve is looked at in so many places, too.
 constexpr double kLeastCurvePlaces = 4;
 /// Noise makes no curve of so many edge lengths.
@@ -198,7 +197,7 @@ CreaseSide lookBeside(const Mesh& mesh, Index h, double width)
 /// Places along a curve, at equal distances in the middle of parts of equal length; the half-edges that they lie on.
 std::vector<Index> placesAlong(const Mesh& mesh, const CreaseCurve& curve, double edgeLength)
 {
-  const double step = std::min(kPlaceDistance, curve.length / kLeastCurvePlaces);
+  const double step = std::min(kSideWidth, curve.length / kLeastCurvePlaces);
   std::vector<Index> places;
   double begin = 0, wanted = 0.5 * step;
   for (const Index h : curve.halfEdges)

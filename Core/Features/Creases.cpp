@@ -29,7 +29,6 @@ constexpr double kBlunt = 0.6;
 constexpr double kComparable = 0.4;
 /// The part of the weight that blunt edges may have beside a crease.
 constexpr double kMostBlunt = 0.1;
-constexpr int kMostRounds = 30;
 /// A line of so many edges is one, whatever is beside it.
 constexpr std::size_t kLongLine = 12;
 const double kStraight = std::cos(radians(20));
@@ -83,7 +82,7 @@ public:
     outgoing_ = outgoingHalfEdges(mesh_, threads);
     lookRound(threads);
     keepLines();
-    while (rounds_++ < kMostRounds && dropOnce())
+    while (dropOnce())
     {
       poll();
     }
@@ -335,7 +334,6 @@ private:
   std::vector<std::vector<Neighbour>> near_;
   std::vector<double> blunt_; ///< weight of blunt edges that were never sharp
   std::vector<std::uint8_t> kept_, isLine_;
-  int rounds_ = 0;
 };
 
 } // namespace

@@ -11,9 +11,6 @@ namespace quadrille
 namespace
 {
 
-/// Coordinates often come as float, even where they are double now: below this height over the size of the surface a
-/// face's normal can be off by degrees.
-constexpr double kReliableHeight = 1e-6;
 /// The same over the precision of the coordinates, where that is worse.
 constexpr double kReliableSteps = 16;
 
@@ -34,7 +31,7 @@ std::array<Index, 3> byLength(const Mesh& mesh, Index f)
 FaceNormals::FaceNormals(const Mesh& mesh, double precision, int threads) : mesh_(mesh)
 {
   const PointBox box = boxOfPoints(mesh.position, threads);
-  height_ = std::max(kReliableHeight * (box.high - box.low).norm(), kReliableSteps * precision);
+  height_ = std::max(kRoundingOfSingle * (box.high - box.low).norm(), kReliableSteps * precision);
 }
 
 /// The face whose normal stands for that of a sliver f: beyond the longest edges of slivers, and never back.

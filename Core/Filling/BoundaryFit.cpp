@@ -21,8 +21,6 @@ namespace quadrille
 namespace
 {
 
-/// A point of the quads lies at a pin within so many edge lengths: both are vertices of the face.
-constexpr double kAtPin = 1e-6;
 /// Edges at a point of the boundary with two quads.
 constexpr int kAlongBoundary = 3;
 /// By which the ways of the boundary have come to the points inside.
@@ -102,7 +100,7 @@ class BoundaryFit
 public:
   BoundaryFit(QuadMesh own, const Mesh& face, const FaceGround& ground)
     : mesh_(std::move(own)), face_(face), ground_(ground), loops_(loopsOf(face, ground)),
-      within_(kAtPin * ground.edgeLength()), anchor_(mesh_.points.size(), kInvalidIndex)
+      within_(kRoundingOfSingle * ground.edgeLength()), anchor_(mesh_.points.size(), kInvalidIndex)
   {
     mesh_.lines.clear();
   }

@@ -20,10 +20,9 @@ namespace
 constexpr double kLimit = 1 << 20;
 /// Beyond this, in quads, two images of an edge or a translation are not merely imprecise.
 constexpr double kSnapTolerance = 0.1;
-/// Rotations under which the images agree by so much more or less are equally good.
-constexpr double kAmbiguity = 1e-3;
-/// A feature or boundary edge is put on the nearest integer isoline when both ends are nearer than this, in quads.
-constexpr double kIsolineTolerance = 1e-3;
+/// So far off, in quads, images and isolines of a good map are by rounding: rotations under which they agree by so much
+/// more or less are equally good, and a feature or boundary edge this near to an integer isoline is put on it.
+constexpr double kImprecise = 1e-3;
 
 std::string edgeName(Index h)
 {
@@ -162,8 +161,8 @@ class Snapper
 {
 public:
   Snapper(const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
-    : mesh_(mesh), uv_(uv), options_(options), ambiguity_(kAmbiguity + 4 * options.valueError),
-      isolineTolerance_(std::max(kIsolineTolerance, 4 * options.valueError))
+    : mesh_(mesh), uv_(uv), options_(options), ambiguity_(kImprecise + 4 * options.valueError),
+      isolineTolerance_(std::max(kImprecise, 4 * options.valueError))
   {
   }
 

@@ -192,7 +192,6 @@ void followRequests(const Mesh& mesh, const CrossField& field, const UntanglePro
   {
     return;
   }
-  constexpr int kRequestSteps = 30;
   // Of guides against the energy that the map has anyway.
   constexpr double kGuideWeight = 30;
   // Of the way from 1 to the limit, where the penalty begins: it is zero there and small at first, so that triangles
@@ -205,7 +204,7 @@ void followRequests(const Mesh& mesh, const CrossField& field, const UntanglePro
     options.limitedTriangles = mesh.faceCount();
   }
   options.axisWeight = hasGuides ? kGuideWeight : 0;
-  options.polishSteps = kRequestSteps;
+  options.polishSteps = kStepsOfWhole;
   countTry(Try::RequestsFollowed);
   UntangleResult shaped = untangle(problem, untangling.y, options);
   untangling.newtonSteps += shaped.steps;

@@ -3,6 +3,7 @@
 #include "GridMap/RelaxMap.h"
 
 #include "Base/Lists.h"
+#include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
@@ -69,12 +70,11 @@ double MapRelaxation::insetLeft() const
 /// The step of Newton's method; false where there is none.
 bool MapRelaxation::solveStep(Eigen::VectorXd& direction)
 {
-  constexpr double kRegularization = 1e-9; // of the matrix, over the mean of its diagonal
   std::vector<Jacobian> gradients;
   std::vector<Eigen::Matrix4d> hessians;
   derivatives(gradients, hessians);
   system_->assemble(gradients, hessians);
-  return system_->newtonStep(kRegularization, direction);
+  return system_->newtonStep(kRounding, direction);
 }
 
 /// One step towards the place of the inset boundary, with what is free in its wake. False where nothing moves.
@@ -280,7 +280,7 @@ void MapRelaxation::relaxCrushed()
     bool moved = false;
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {
-      pollNowAndThen(i, kLongSteps);
+      pollNowAndThen(i, kHeavyChunk);
       const Index v = vertices[i];
       if (free_[v][0] != 0 || free_[v][1] != 0)
       {
@@ -302,13 +302,12 @@ bool MapRelaxation::check(double bytes, double operations, RelaxResult& result) 
   {
     return true;
   }
-  // Of one thread and steps as measured, see Documentation/Performance.md.
-  constexpr double kOperationsPerSecond = 5e9;
-  constexpr double kUsualSteps = 4;
+  // Of one thread: four steps with 5e9 operations a second, as measured, see Documentation/Performance.md.
+  constexpr double kSecondsOfOperation = 0.8e-9;
   std::ostringstream text;
   text << "about " << std::ceil(1e-6 * bytes) << " MB and "
-       << std::ceil(kUsualSteps * operations / kOperationsPerSecond)
-       << " s would be needed for a level of " << mesh_.faceCount() << " triangles, and "
+       << std::ceil(kSecondsOfOperation * operations) << " s would be needed for a level of "
+       << mesh_.faceCount() << " triangles, and "
        << (bytes > options_.maximumBytes ? "so much memory is not free"
                                          : "that is more than the limit")
        << "; the intermediate level takes less";

@@ -28,8 +28,6 @@ namespace
 constexpr double kLeastShrink = 0.1;
 /// How often the steps of single vertices are halved before they stay where they are.
 constexpr int kHalvings = 12;
-/// Half a quad.
-constexpr std::int64_t kInset = kOne / 2;
 /// Strength of a guide of weight 1: isolines that are a degree off it cost as much as a stretch by 1.3.
 constexpr double kGuideStrengthOfMap = 1000;
 /// Three degrees: beyond that the pull of a guide grows no more, so that one that no map follows does not tear its
@@ -163,7 +161,7 @@ void RelaxedTriangles::findInset()
     }
     const FixedVec2 along = uv_[Mesh::next(h)] - uv_[h];
     const auto sign = [](std::int64_t x) { return static_cast<std::int64_t>(x > 0) - (x < 0); };
-    const FixedVec2 inside = rotate({ kInset * sign(along.u), kInset * sign(along.v) }, 1);
+    const FixedVec2 inside = rotate({ kOne / 2 * sign(along.u), kOne / 2 * sign(along.v) }, 1);
     for (const Index corner : { h, Mesh::next(h) })
     {
       inset_[mesh_.origin[corner]] = rotate(inside, -rotation_[corner]);
@@ -438,7 +436,7 @@ void RelaxedTriangles::derivatives(
     idsWhere(mesh_.faceCount(), [&](Index f) { return references_[f].weight > 0; });
   gradients.resize(faces.size());
   hessians.resize(faces.size());
-  parallelForEach(faces.size(), kFacesOfRelaxation, options_.threads,
+  parallelForEach(faces.size(), kMediumChunk, options_.threads,
     [&](std::size_t i)
     {
       derive(faces[i], gradients[i], hessians[i]);
@@ -460,21 +458,20 @@ double RelaxedTriangles::referenceArea() const
 double RelaxedTriangles::totalEnergy(bool stepped) const
 {
   const std::size_t faces = mesh_.faceCount();
-  const std::vector<double> sums =
-    parallelParts<double>(faces, kFacesOfRelaxation, options_.threads,
-      [&](std::size_t begin, std::size_t end, double& part)
+  const std::vector<double> sums = parallelParts<double>(faces, kMediumChunk, options_.threads,
+    [&](std::size_t begin, std::size_t end, double& part)
+    {
+      double sum = 0;
+      for (std::size_t i = begin; i < end; ++i)
       {
-        double sum = 0;
-        for (std::size_t i = begin; i < end; ++i)
+        const Index f = static_cast<Index>(i);
+        if (references_[f].weight > 0)
         {
-          const Index f = static_cast<Index>(i);
-          if (references_[f].weight > 0)
-          {
-            sum += energy(f, stepped ? steppedCorners(f) : cornersOf(f));
-          }
+          sum += energy(f, stepped ? steppedCorners(f) : cornersOf(f));
         }
-        part = sum;
-      });
+      }
+      part = sum;
+    });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
@@ -556,14 +553,14 @@ bool RelaxedTriangles::allowsAll() const
 void RelaxedTriangles::shortenSteps()
 {
   const std::size_t faces = mesh_.faceCount();
-  std::vector<std::vector<Index>> refused((faces + kFacesOfRelaxation - 1) / kFacesOfRelaxation);
+  std::vector<std::vector<Index>> refused((faces + kMediumChunk - 1) / kMediumChunk);
   std::vector<std::uint8_t> shortened(mesh_.vertexCount(), 0);
   for (int round = 0;; ++round)
   {
-    parallelFor(faces, kFacesOfRelaxation, options_.threads,
+    parallelFor(faces, kMediumChunk, options_.threads,
       [&](std::size_t begin, std::size_t end)
       {
-        std::vector<Index>& list = refused[begin / kFacesOfRelaxation];
+        std::vector<Index>& list = refused[begin / kMediumChunk];
         list.clear();
         for (std::size_t i = begin; i < end; ++i)
         {
@@ -605,7 +602,7 @@ void RelaxedTriangles::shortenSteps()
 
 void RelaxedTriangles::takeStep()
 {
-  parallelForEach(mesh_.halfEdgeCount(), kFacesOfRelaxation, options_.threads,
+  parallelForEach(mesh_.halfEdgeCount(), kMediumChunk, options_.threads,
     [&](std::size_t h) { uv_[h] = uv_[h] + stepOf(static_cast<Index>(h)); });
 }
 

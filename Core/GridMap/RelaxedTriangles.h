@@ -20,7 +20,6 @@
 namespace quadrille
 {
 
-constexpr std::size_t kFacesOfRelaxation = 1 << 12;
 /// Energy of an isometry, |J|^2 + |J^-1|^2.
 constexpr double kIsometry = 4;
 /// Vertices of triangles above this multiple of an isometry's energy are relaxed one by one first: Newton's method on a

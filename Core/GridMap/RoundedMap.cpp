@@ -19,9 +19,6 @@ namespace
 constexpr Index kFreeUnknown = kInvalidIndex; ///< a variable that need not be whole
 constexpr Index kZero = kInvalidIndex - 1;    ///< one that is 0 whatever the unknowns are
 
-/// Part of the mean diagonal that is added to it against rounding, as in fitReferences.
-constexpr double kDiagonalShift = 1e-12;
-
 /// An integer vertex lies best at the origin, else a vertex of an isoline: then what must be whole is so.
 std::vector<std::uint8_t> rankOf(const Mesh& mesh, const std::vector<std::uint8_t>& integerVertex)
 {
@@ -117,7 +114,7 @@ bool RoundedMap::solvePoisson()
     return false;
   }
   poisson_.analyze(system.hessian());
-  if (!poisson_.factorize(system.hessian(), kDiagonalShift * system.hessian().diagonal().mean()))
+  if (!poisson_.factorize(system.hessian(), kLastDigits * system.hessian().diagonal().mean()))
   {
     return false;
   }

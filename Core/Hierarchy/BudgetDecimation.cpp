@@ -41,9 +41,6 @@ constexpr std::array<double, 5> kCeilings{ 0.25, 0.5, 1, 2, kInfinity };
 /// Where no budget is given: coarse vertices for each quad, about, by which costs are scaled before it is known.
 constexpr double kVerticesPerQuad = 0.4;
 
-/// Vertices that a thread evaluates at a time.
-constexpr std::size_t kCandidateChunk = 1024;
-
 /// Positions in a value of the cache, see BudgetDecimation::writeValue().
 constexpr std::size_t kCurvatureAt = 1;
 constexpr std::size_t kAreaAt = 2;
@@ -291,7 +288,7 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
   std::size_t visits = 0;
   while (alive_ > budget_ && !heap.empty() && double{ heap.top().cost } <= stage.ceiling)
   {
-    if (++visits % kCandidateChunk == 0)
+    if (++visits % kHeavyChunk == 0)
     {
       poll();
     }
@@ -345,16 +342,16 @@ std::vector<BudgetDecimation::Entry> BudgetDecimation::evaluateAll(const Stage& 
     idsWhere(mesh_.position.size(), [&](Index v) { return mesh_.outgoing[v] != kInvalidIndex; });
   std::vector<float> cost(alive.size(), -1);
   std::deque<Work> works;
-  for (std::size_t begin = 0; begin < alive.size(); begin += kCandidateChunk)
+  for (std::size_t begin = 0; begin < alive.size(); begin += kHeavyChunk)
   {
     works.emplace_back(mesh_);
   }
-  parallelFor(alive.size(), kCandidateChunk, options_.threads,
+  parallelFor(alive.size(), kHeavyChunk, options_.threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        cost[i] = evaluate(alive[i], stage, works[begin / kCandidateChunk]).value_or(-1);
+        cost[i] = evaluate(alive[i], stage, works[begin / kHeavyChunk]).value_or(-1);
       }
     });
   for (Work& work : works)

@@ -16,7 +16,6 @@ namespace
 {
 
 constexpr float kSinglePi = static_cast<float>(kPi);
-constexpr float kInfinitySingle = std::numeric_limits<float>::infinity();
 constexpr float kEquilateralSingle = static_cast<float>(kEquilateral);
 /// Stars with a flatter face go to VertexRemoval: their normals and their weights need more digits.
 constexpr float kFlattestFace = 0.022F;
@@ -99,7 +98,7 @@ float FreeStar::shortestEdge(double unit)
 {
   const double scale = 1 / unit;
   const Vector3 center = mesh_.position[vertex_];
-  float shortest = kInfinitySingle;
+  float shortest = kInfinityOfSingle;
   for (std::size_t i = 0; i < index(size_); ++i)
   {
     const Vector3& p = mesh_.position[ring_[i]];
@@ -297,7 +296,7 @@ void FreeStar::evaluateTriangles()
       least[i] = leastDot_ * doubled;
       margin[i] = tx[i] * mean_[0] + ty[i] * mean_[1] + tz[i] * mean_[2] - least[i];
       const bool good = (planar > leastPlanar_ * planarSquares) & (harmonic <= mostHarmonic_);
-      cost_[out + i] = good ? harmonic : kInfinitySingle;
+      cost_[out + i] = good ? harmonic : kInfinityOfSingle;
     }
     const auto compare = [&](std::size_t face)
     {
@@ -323,7 +322,7 @@ void FreeStar::evaluateTriangles()
     }
     for (std::size_t i = 0; i < lanes; ++i)
     {
-      cost_[out + i] = margin[i] >= 0 ? cost_[out + i] : kInfinitySingle;
+      cost_[out + i] = margin[i] >= 0 ? cost_[out + i] : kInfinityOfSingle;
     }
     out += lanes;
   }
@@ -345,7 +344,7 @@ bool FreeStar::triangulate()
     for (std::size_t a = 0; a + gap < N; ++a)
     {
       const std::size_t c = a + gap;
-      float least = kInfinitySingle;
+      float least = kInfinityOfSingle;
       std::size_t by = a + 1;
       for (std::size_t b = a + 1; b < c; ++b)
       {
@@ -357,7 +356,7 @@ bool FreeStar::triangulate()
       middle[a][c] = static_cast<std::uint8_t>(by);
     }
   }
-  if (!(best[0][N - 1] < kInfinitySingle))
+  if (!(best[0][N - 1] < kInfinityOfSingle))
   {
     return false;
   }
@@ -456,7 +455,7 @@ bool FreeStar::closesTetrahedron() const
 bool FreeStar::locate()
 {
   const auto cross = [&](std::size_t i, std::size_t j) { return u_[i] * v_[j] - v_[i] * u_[j]; };
-  float bestInside = -kInfinitySingle;
+  float bestInside = -kInfinityOfSingle;
   std::array<float, 3> weights{};
   Triangle home;
   for (std::size_t t = 0; t < index(size_ - 2) && bestInside < 0; ++t)

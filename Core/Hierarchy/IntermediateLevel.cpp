@@ -22,10 +22,9 @@ namespace quadrille
 namespace
 {
 
-/// How far a guide reaches beyond its face on the way to the intermediate level, in s.
-constexpr double kGuideReach = 0.25;
-/// Distance on both sides over which the bend at a corner is measured, in s.
-constexpr double kCornerScale = 0.25;
+/// Half an edge of the intermediate level, about, in s: how far a guide reaches beyond its face on the way there, and
+/// the distance on both sides over which the bend at a corner is measured.
+constexpr double kHalfEdge = 0.25;
 /// What bringing a vertex back undoes, in removals, and what another size does, at most, where it is worth it.
 constexpr std::size_t kUndoneForKept = 32;
 constexpr std::size_t kUndoneForSize = 2;
@@ -60,7 +59,7 @@ UniformOptions uniformOptions(double edgeLength, const HierarchyOptions& options
 
 FeatureCurves curvesOfFinest(const Mesh& fine, double edgeLength)
 {
-  return traceFeatureCurves(fine, kCornerScale * edgeLength);
+  return traceFeatureCurves(fine, kHalfEdge * edgeLength);
 }
 
 } // namespace
@@ -279,7 +278,7 @@ void IntermediateLevel::carryGuides(const HierarchyOptions& options)
   guides_ = {};
   hierarchy_.intermediate.guides = {};
   hierarchy_.intermediate.guides = guidesOfLevel(
-    fine_, hierarchy_.intermediate, options.guides, kGuideReach * edgeLength_, options.threads);
+    fine_, hierarchy_.intermediate, options.guides, kHalfEdge * edgeLength_, options.threads);
   guides_ = options.guides;
 }
 

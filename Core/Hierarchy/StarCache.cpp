@@ -12,7 +12,6 @@ namespace
 
 /// Words of all entries together above which the cache starts anew: a gigabyte.
 constexpr std::size_t kMaximumWords = std::size_t{ 1 } << 28;
-constexpr std::size_t kFirstSlots = 1024;
 
 std::uint32_t hashOf(const std::uint32_t* words, std::size_t count)
 {
@@ -103,7 +102,7 @@ void StarCache::place(Slot slot)
 
 void StarCache::grow()
 {
-  std::vector<Slot> old(std::max(kFirstSlots, 2 * slots_.size()));
+  std::vector<Slot> old(std::max<std::size_t>(2, 2 * slots_.size()));
   old.swap(slots_);
   for (const Slot& slot : old)
   {

@@ -18,8 +18,6 @@ namespace quadrille
 namespace
 {
 
-/// Less than the harmonic index of any triangle, which is 1 for an equilateral one.
-constexpr double kLeastHarmonic = 0.999;
 /// Cost of a face with three constrained vertices where it is allowed at all.
 constexpr double kConstrainedFaceCost = 50;
 
@@ -277,7 +275,8 @@ bool VertexRemoval::triangulatePolygon(const int* polygon, int count)
       {
         const int b = ringAt(k);
         const double below = best_[index(a)][index(b)] + best_[index(b)][index(c)];
-        if (!(below + kLeastHarmonic < best))
+        // No triangle has a harmonic index below that of an equilateral one.
+        if (!(below + 1 - kRounding < best))
         {
           continue;
         }

@@ -28,8 +28,6 @@ constexpr std::size_t kLargestBlock = 32768;
 constexpr double kThresholdStep = 1.5;
 /// Sweeps inside one round. The second one takes what the first one locked while the block is in the cache.
 constexpr int kSweepsPerRound = 2;
-/// Rounds at the last threshold, at most.
-constexpr int kLastRounds = 40;
 /// A rough end is one where a round removes less than this part of the vertices.
 constexpr std::size_t kRoughPart = 16;
 /// How many visits ahead the memory is asked for a star, and twice that for its vertex.
@@ -155,15 +153,15 @@ void UniformDecimation::finish(double threshold)
 {
   forget();
   bool serial = isLocal();
-  for (int i = 0; i < kLastRounds; ++i)
+  for (;;)
   {
     poll();
     const std::size_t removed = round(threshold, serial);
-    if (serial && removed * 500 < alive_.size())
+    if (serial && (removed == 0 || removed * 500 < alive_.size()))
     {
       break;
     }
-    if (!serial && (removed * 100 < alive_.size() || i + 2 == kLastRounds))
+    if (!serial && (removed == 0 || removed * 100 < alive_.size()))
     {
       serial = true;
       forget(); // once more what the valences forbade; they have changed since
@@ -175,7 +173,7 @@ void UniformDecimation::finish(double threshold)
 void UniformDecimation::finishRoughly(double threshold)
 {
   std::size_t removed = alive_.size();
-  for (int i = 0; i < kLastRounds && removed * kRoughPart >= alive_.size(); ++i)
+  while (removed > 0 && removed * kRoughPart >= alive_.size())
   {
     poll();
     removed = round(threshold, isLocal());

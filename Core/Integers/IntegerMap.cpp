@@ -460,7 +460,7 @@ bool IntegerMap::wantsFlip(Index h) const
     const Vector2 a = inQuads(q_[Mesh::previous(x)]), b = -inQuads(q_[Mesh::next(x)]);
     return a.dot(b) / (a.x() * b.y() - a.y() * b.x());
   };
-  if (!(cotangent(h) + cotangent(mesh_.twin[h]) < kDelaunaySlack))
+  if (!(cotangent(h) + cotangent(mesh_.twin[h]) < -kRounding))
   {
     return false;
   }

@@ -22,15 +22,11 @@ namespace
 
 /// Energies are of order one; changes below this are rounding.
 constexpr double kLeastEnergyGain = 1e-7;
-/// Sweeps over all half-edges with one length of step; they end by themselves long before.
-constexpr int kMostIntegerSweeps = 100;
 /// Steps of searches that a repair may take, a face; those of rounded integers that succeeded took up to 4,100, others
 /// more than 11,000.
 constexpr std::size_t kMostIntegerSteps = 5000;
 /// What fails at two scales in full fails at the others, too.
 constexpr std::size_t kMostStepsOfScales = 2 * kMostIntegerSteps;
-/// Where integers were valid little is broken, and where they fail others are there still.
-constexpr std::size_t kMostStepsOfValid = 2000;
 /// Rounds of improvement with a new triangulation each.
 constexpr int kMaximumRounds = 6;
 
@@ -337,15 +333,13 @@ public:
       for (std::int64_t length = longest; length >= kGrain; length /= 2)
       {
         refused_.assign(4 * map_.mesh().origin.size(), {});
-        for (int sweep = 0; sweep < kMostIntegerSweeps; ++sweep)
+        report(progress, 0.5, "improving integers");
+        settleFreeVertices();
+        while (sweepStrips(length))
         {
+          improved = true;
           report(progress, 0.5, "improving integers");
           settleFreeVertices();
-          if (!sweepStrips(length))
-          {
-            break;
-          }
-          improved = true;
         }
       }
       if (!improved)
@@ -504,7 +498,7 @@ private:
   /// Moves cost next to nothing beside searches, each of which they make out of date.
   void settleFreeVertices()
   {
-    for (int sweep = 0; sweep < kMostIntegerSweeps && moveFreeVertices(); ++sweep)
+    while (moveFreeVertices())
     {
     }
   }
@@ -575,7 +569,7 @@ IntegerStart repaired(IntegerMap& map, std::size_t mostSteps)
 
 IntegerStart repairValidIntegers(IntegerMap& map)
 {
-  return repaired(map, kMostStepsOfValid);
+  return repaired(map, kMostIntegerSteps);
 }
 
 IntegerStart findValidIntegers(

@@ -75,8 +75,7 @@ private:
   bool wantsFlip(Index h) const
   {
     return !mesh_.isFixed(h) &&
-      cotangentOpposite(h) + cotangentOpposite(mesh_.twin[h]) < kDelaunaySlack &&
-      editor_.canFlip(h);
+      cotangentOpposite(h) + cotangentOpposite(mesh_.twin[h]) < -kRounding && editor_.canFlip(h);
   }
 
   void makeDelaunay(const std::vector<Index>& slots)

@@ -56,10 +56,6 @@ struct UvMesh
   std::vector<Index> starFrom(Index first) const;
 };
 
-/// Edges count as Delaunay when the cotangents opposite to them sum to more than this; below zero, so that rounding
-/// cannot make cocircular vertices, which whole displacements make often, flip forever.
-constexpr double kDelaunaySlack = -1e-9;
-
 /// Flips the edges of the stack that want it, the last one first, and then those round them, at most `budget` times.
 template <typename Wants, typename Flip>
 void flipWhere(const UvMesh& mesh, std::vector<Index> stack, std::size_t budget, const Wants& wants,

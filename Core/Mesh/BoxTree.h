@@ -52,9 +52,18 @@ public:
   template <class Visit>
   void visitWithin(const Vector3& p, double distance, const Visit& visit) const
   {
+    visitWhere(
+      [&](const Box& box) { return box.squaredDistance(p) <= distance * distance; }, visit);
+  }
+
+  /// Calls visit(item) for the items in boxes for which counts(box), and for all boxes round it, is true, in the order
+  /// of the curve.
+  template <class Counts, class Visit>
+  void visitWhere(const Counts& counts, const Visit& visit) const
+  {
     if (!levels_.empty())
     {
-      visitBelow(p, distance * distance, levels_.size() - 1, 0, visit);
+      visitBelow(counts, levels_.size() - 1, 0, visit);
     }
   }
 
@@ -99,20 +108,18 @@ private:
     std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
     for (std::size_t i = 0; i < count; ++i)
     {
-      // Rounding must not hide an item at the same distance with a lower id.
-      constexpr double kSlack = 1 - 1e-12;
-      if (kSlack * order[i].first <= best.squared)
+      if ((1 - kLastDigits) * order[i].first <= best.squared)
       {
         search(p, level - 1, order[i].second, squaredDistance, best);
       }
     }
   }
 
-  template <class Visit>
+  template <class Counts, class Visit>
   void visitBelow(
-    const Vector3& p, double squared, std::size_t level, std::size_t box, const Visit& visit) const
+    const Counts& counts, std::size_t level, std::size_t box, const Visit& visit) const
   {
-    if (!(levels_[level][box].squaredDistance(p) <= squared))
+    if (!counts(levels_[level][box]))
     {
       return;
     }
@@ -120,7 +127,7 @@ private:
     const std::size_t begin = kBoxChildren * box;
     for (std::size_t i = begin; i < std::min(begin + kBoxChildren, count); ++i)
     {
-      level == 0 ? visit(items_[i]) : visitBelow(p, squared, level - 1, i, visit);
+      level == 0 ? visit(items_[i]) : visitBelow(counts, level - 1, i, visit);
     }
   }
 

@@ -29,6 +29,8 @@ constexpr int kLeastOnBoundary = 3;
 constexpr int kStraightTurns = 2;
 /// Sizes are met up to this factor: of the median; of an array of sizes, on average.
 constexpr double kMetFactor = 1.25;
+/// Quads' edge lengths within which two places are one for all that a user would see.
+constexpr double kOnePlace = 0.01;
 
 /// The direction that one family of the quads' edges should have in a face.
 struct Guide

@@ -20,9 +20,8 @@ namespace
 constexpr int kBitsOfCell = 11;
 
 /// The keys' 33 bits are sorted by their upper 11 first, which leaves 22 to sort among the few points of a bucket.
-constexpr int kDigitBits = 11;
-constexpr std::size_t kDigitValues = std::size_t{ 1 } << kDigitBits;
-constexpr int kLowerBits = 3 * kBitsOfCell - kDigitBits;
+constexpr std::size_t kDigitValues = std::size_t{ 1 } << kBitsOfCell;
+constexpr int kLowerBits = 2 * kBitsOfCell;
 /// Buckets below this size are sorted by comparing.
 constexpr std::size_t kSmallKeyBucket = 512;
 /// Cells whose keys are computed in step; a multiple of the lanes of any vector unit.
@@ -131,7 +130,7 @@ void sortKeyBucket(std::uint64_t* items, std::uint64_t* scratch, std::size_t cou
       items, items + count); // the point is part of the item, so that equal keys keep their order
     return;
   }
-  for (int shift = 32; shift < 32 + kLowerBits; shift += kDigitBits)
+  for (int shift = 32; shift < 32 + kLowerBits; shift += kBitsOfCell)
   {
     std::array<std::size_t, kDigitValues + 1> begin{};
     for (std::size_t i = 0; i < count; ++i)
@@ -149,7 +148,6 @@ void sortKeyBucket(std::uint64_t* items, std::uint64_t* scratch, std::size_t cou
     std::swap(items, scratch);
   }
 }
-static_assert(kLowerBits == 2 * kDigitBits, "after two digits the items are where they were");
 
 } // namespace
 

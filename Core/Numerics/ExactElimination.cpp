@@ -3,6 +3,7 @@
 #include "Numerics/ExactElimination.h"
 
 #include "Base/FixedPoint.h"
+#include "Base/Parallel.h"
 #include "Base/Progress.h"
 
 #include <algorithm>
@@ -99,7 +100,7 @@ public:
   {
     for (Index r = 0; r < rows_.size(); ++r)
     {
-      pollNowAndThen(r, kLongSteps);
+      pollNowAndThen(r, kHeavyChunk);
       normalize(rows_[r]);
       for (const auto& term : rows_[r])
       {
@@ -224,7 +225,7 @@ private:
     basis.step.assign(basis.free.size(), 1);
     for (std::size_t v = 0; v < basis.rows.size(); ++v)
     {
-      pollNowAndThen(v, kLongSteps);
+      pollNowAndThen(v, kHeavyChunk);
       const ExactBasis::Row& row = basis.rows[v];
       for (const auto& [id, numerator] : row.numerators)
       {

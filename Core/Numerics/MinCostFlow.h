@@ -14,6 +14,9 @@
 namespace quadrille
 {
 
+/// Units of cost that the longest way gets where ways are lengths: far finer than what is said of a length.
+constexpr double kUnitsOfLongest = 1 << 24;
+
 /// Supplies are sent to demands along arcs at the least total cost. A convex piecewise linear cost is
 /// a bundle of parallel arcs with growing costs. Integers only, ties by id: the same result on every run.
 ///

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/ReducedTriangles.h"
 
+#include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 
@@ -64,7 +65,7 @@ void ReducedTriangles::collectUnknowns(const UntangleProblem& problem)
   std::vector<std::pair<int, Jacobian>> terms;
   for (std::size_t t = 0; t < count; ++t)
   {
-    pollNowAndThen(t, kLongSteps);
+    pollNowAndThen(t, kHeavyChunk);
     terms.clear();
     for (int i = 0; i < 6; ++i)
     {
@@ -107,7 +108,7 @@ void ReducedTriangles::buildPattern()
   std::vector<std::size_t> next(placeBegin.begin(), placeBegin.end() - 1);
   for (std::size_t t = 0; t < triangles(); ++t)
   {
-    pollNowAndThen(t, kLongSteps);
+    pollNowAndThen(t, kHeavyChunk);
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {
       place[next[unknown_[a]]++] = a;
@@ -119,7 +120,7 @@ void ReducedTriangles::buildPattern()
   std::vector<int> seenBy(count, -1);
   for (int j = 0; j < count; ++j)
   {
-    pollNowAndThen(static_cast<std::size_t>(j), kLongSteps);
+    pollNowAndThen(static_cast<std::size_t>(j), kHeavyChunk);
     std::vector<int>& column = columns[j];
     column.push_back(j);
     for (std::size_t i = placeBegin[j]; i < placeBegin[j + 1]; ++i)
@@ -146,7 +147,7 @@ void ReducedTriangles::buildPattern()
   slotBegin_.assign(1, 0);
   for (std::size_t t = 0; t < triangles(); ++t)
   {
-    pollNowAndThen(t, kLongSteps);
+    pollNowAndThen(t, kHeavyChunk);
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {
       const std::vector<int>& column = columns[unknown_[a]];
@@ -166,7 +167,7 @@ void ReducedTriangles::jacobians(const Eigen::VectorXd& y, std::vector<Jacobian>
   result.resize(triangles());
   for (std::size_t t = 0; t < triangles(); ++t)
   {
-    pollNowAndThen(t, kLongSteps);
+    pollNowAndThen(t, kHeavyChunk);
     Jacobian jacobian = constant_[t];
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {
@@ -184,7 +185,7 @@ void ReducedTriangles::assemble(
   std::fill(values, values + hessian_.nonZeros(), 0.0);
   for (std::size_t t = 0; t < triangles(); ++t)
   {
-    pollNowAndThen(t, kLongSteps);
+    pollNowAndThen(t, kHeavyChunk);
     const int* slot = slot_.data() + slotBegin_[t];
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {

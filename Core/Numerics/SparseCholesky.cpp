@@ -17,9 +17,8 @@ namespace quadrille
 namespace
 {
 
-/// A column of L, or what one supernode adds to another, takes a millisecond at most.
-constexpr std::size_t kColumnsBetweenPolls = 16;
-/// Supernodes are no wider, so that sums of products have one order whatever the caches of the machine are.
+/// Supernodes are no wider, and so many dense rows are multiplied at a time, so that sums of products have one order
+/// whatever the caches of the machine are.
 constexpr int kWidestSupernode = 64;
 /// Supernodes are joined up to this width, or where no more of what is stored than this part are zeros.
 constexpr int kNarrowSupernode = 8;
@@ -78,15 +77,13 @@ bool factorizeDense(Panel& panel)
 
 /// From this part of all columns on a row is taken for a dense one.
 constexpr int kDenseRow = 4;
-/// Dense rows that are multiplied at a time.
-constexpr int kRowsOfBlock = 64;
 
 /// sum over rows of row^T row; entries of a row ascend.
 Eigen::MatrixXd productOfRows(
   const std::vector<std::vector<std::pair<int, double>>>& rows, int columns)
 {
   Eigen::MatrixXd product = Eigen::MatrixXd::Zero(columns, columns);
-  Eigen::MatrixXd block(columns, kRowsOfBlock);
+  Eigen::MatrixXd block(columns, kWidestSupernode);
   int filled = 0;
   const auto flush = [&]
   {
@@ -98,7 +95,7 @@ Eigen::MatrixXd productOfRows(
   };
   for (std::size_t r = 0; r < rows.size(); ++r)
   {
-    pollNowAndThen(r, kColumnsBetweenPolls);
+    poll();
     const auto& row = rows[r];
     if (static_cast<int>(row.size()) * kDenseRow < columns)
     {
@@ -117,7 +114,7 @@ Eigen::MatrixXd productOfRows(
     {
       block(j, filled) = value;
     }
-    if (++filled == kRowsOfBlock)
+    if (++filled == kWidestSupernode)
     {
       flush();
     }
@@ -174,7 +171,7 @@ void SparseCholesky::findTree(const Matrix& lower)
   std::vector<int> seen(n, -1);
   for (int k = 0; k < size(); ++k)
   {
-    pollNowAndThen(static_cast<std::size_t>(k), kColumnsBetweenPolls);
+    poll();
     seen[k] = k;
     for (const int* from = left.begin(k); from != left.end(k); ++from)
     {
@@ -300,7 +297,7 @@ void SparseCholesky::findRows()
   std::ptrdiff_t values = 0;
   for (int s = 0; s < static_cast<int>(nodes_.size()); ++s)
   {
-    pollNowAndThen(static_cast<std::size_t>(s), kColumnsBetweenPolls);
+    poll();
     Supernode& node = nodes_[s];
     node.firstRow = static_cast<std::ptrdiff_t>(rows_.size());
     for (int k = node.begin; k < node.end; ++k)
@@ -353,7 +350,6 @@ bool SparseCholesky::factorize(const Matrix& lower, double shift)
   // Supernodes that are done, by the supernode that they add to next, and their first row in it.
   std::vector<int> first(nodes_.size(), -1), next(nodes_.size(), -1), reached(nodes_.size(), 0);
   std::vector<double> product;
-  std::size_t steps = 0;
   for (int s = 0; s < static_cast<int>(nodes_.size()); ++s)
   {
     const Supernode& node = nodes_[s];
@@ -382,7 +378,7 @@ bool SparseCholesky::factorize(const Matrix& lower, double shift)
     };
     for (int from = first[s]; from >= 0;)
     {
-      pollNowAndThen(steps++, kColumnsBetweenPolls);
+      poll();
       const Supernode& done = nodes_[from];
       const int following = next[from];
       const int* const rows = rowsOf(done) + reached[from];
@@ -409,7 +405,7 @@ bool SparseCholesky::factorize(const Matrix& lower, double shift)
       passOn(from);
       from = following;
     }
-    pollNowAndThen(steps++, kColumnsBetweenPolls);
+    poll();
     if (!factorizeDense(own))
     {
       return false;
@@ -478,7 +474,7 @@ Eigen::MatrixXd SparseCholesky::schur(const Matrix& columns) const
   std::vector<int> path(n), pattern(n);
   for (int j = 0; j < k; ++j)
   {
-    pollNowAndThen(static_cast<std::size_t>(j), kColumnsBetweenPolls);
+    poll();
     int top = n;
     for (Matrix::InnerIterator entry(columns, j); entry; ++entry)
     {

@@ -20,9 +20,6 @@ namespace
 constexpr std::size_t kSeveralHandles = 8;
 constexpr double kMostGrowthOfSeveral = 1.15;
 constexpr double kMostGrowthOfMany = 1.05;
-/// Handles that are cut where nothing else has led to quads, in edge lengths. Loops of the intermediate level are up to
-/// a tenth too short, and of four quads round a handle a map may leave two: then they touch themselves.
-constexpr double kLoopOfRest = 4;
 
 /// The short loops that are handles come first.
 std::vector<HandleLoop>::const_iterator endOfHandles(const ShortLoops& found)
@@ -35,7 +32,7 @@ std::vector<HandleLoop>::const_iterator endOfHandles(const ShortLoops& found)
 DetailLimits detailLimits(double edgeLength, double smallest, bool takesAll, bool isRest)
 {
   const double limit = edgeLength * std::max(smallest, takesAll ? kQuadsOfLoop : 0.0);
-  return { limit, isRest ? std::max(limit, kLoopOfRest * edgeLength) : limit };
+  return { limit, isRest ? std::max(limit, kQuadsOfSafeLoop * edgeLength) : limit };
 }
 
 bool isCrowdToCut(const DetailLimits& limits, const RunContext& run)

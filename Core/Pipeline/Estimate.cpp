@@ -18,17 +18,15 @@ namespace
 {
 
 // Medians of quadrille-bench on scans, see Documentation/Performance.md: what does not depend on the surface (the
-// coarse level), a triangle's share that threads cannot help, the share that they can, and a quad's share.
+// coarse level), a triangle's share, once of what threads cannot help and once of what they can, and a quad's share.
 constexpr double kSecondsFixed = 0.3;
-constexpr double kSecondsSerial = 0.9e-6;
-constexpr double kSecondsParallel = 1.0e-6;
+constexpr double kSecondsTriangle = 1.0e-6;
 constexpr double kSecondsQuad = 8e-6;
 constexpr double kBytesFixed = 30e6;
 constexpr double kBytesTriangle = 200;
 constexpr double kBytesQuad = 900;
 // The same of pieces: all that a triangle takes is shared by the threads. Bytes that stay of each, and those of a piece
 // under work; thinned triangles of a quad.
-constexpr double kSecondsInPiece = 0.95e-6;
 constexpr double kBytesStaying = 48;
 constexpr double kBytesInPiece = 165;
 constexpr double kThinnedOfQuad = 22;
@@ -42,8 +40,7 @@ RunEstimate estimateRun(std::size_t triangles, double quads, int threads)
   const double faces = static_cast<double>(triangles);
   // Blocks of the decimation that share a border wait for each other; more than eight threads bring little.
   const double workers = std::min(8.0, static_cast<double>(resolveThreads(threads)));
-  return { kSecondsFixed + (kSecondsSerial + kSecondsParallel / workers) * faces +
-      kSecondsQuad * quads,
+  return { kSecondsFixed + kSecondsTriangle * (1 + 1 / workers) * faces + kSecondsQuad * quads,
     kBytesFixed + kBytesTriangle * faces + kBytesQuad * quads };
 }
 
@@ -55,7 +52,7 @@ RunEstimate estimateInPieces(
   const double workers = std::min(pieces, static_cast<double>(resolveThreads(threads)));
   const double thinned = std::min(faces, kThinnedOfQuad * quads);
   const RunEstimate joined = estimateRun(static_cast<std::size_t>(thinned), quads, threads);
-  return { joined.seconds + kSecondsInPiece * faces / workers,
+  return { joined.seconds + kSecondsTriangle * faces / workers,
     kBytesStaying * faces + std::max(joined.bytes, kBytesInPiece * workers * faces / pieces) };
 }
 

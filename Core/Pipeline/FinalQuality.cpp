@@ -3,6 +3,7 @@
 #include "Pipeline/FinalQuality.h"
 
 #include "Base/Error.h"
+#include "Base/Parallel.h"
 #include "Base/TryCount.h"
 #include "Extraction/Extraction.h"
 #include "Pipeline/Attempt.h"
@@ -22,8 +23,6 @@ namespace
 
 /// How often quads that the re-solve has inverted get the carried map back.
 constexpr int kMaximumHolds = 3;
-/// Within so many edge lengths of such a quad; twice as far each time.
-constexpr double kFirstHold = 1;
 
 bool noWorse(const Certificate& a, const Certificate& b)
 {
@@ -106,7 +105,7 @@ void fixNear(const Mesh& mesh, const std::vector<Vector3>& places, double radius
 {
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
-    pollNowAndThen(v, kLongSteps);
+    pollNowAndThen(v, kHeavyChunk);
     fixed[v] = fixed[v] != 0 || isNear(mesh.position[v], places, radius) ? 1 : 0;
   }
 }
@@ -188,7 +187,7 @@ FinalQualityReport improveMap(const PreparedSurface& surface, const std::vector<
   { return hasQuads ? invertedQuadsOf(surface, uv, options) : InvertedQuads{}; };
   const InvertedQuads before = inverted(map.uv);
   std::vector<std::uint8_t> fixed = integerVertex;
-  double radius = kFirstHold * options.edgeLength;
+  double radius = options.edgeLength; // twice as far each time
   for (int hold = 0;; ++hold)
   {
     std::vector<FixedVec2> uv = isOnInput ? map.uv : std::vector<FixedVec2>{};

@@ -20,8 +20,6 @@ namespace
 
 /// Where smaller quads make their number grow by more than this factor they may as well be smaller everywhere.
 constexpr double kMostGrowth = 1.6;
-/// So many quads are made to fit round a loop that is too short for three.
-constexpr double kQuadsOfShrunkLoop = 4;
 
 /// #V, 1 away from the loops: sizes, as multiples of edgeLength, with which four quads fit round each loop.
 std::vector<float> sizesOfLoops(
@@ -30,7 +28,7 @@ std::vector<float> sizesOfLoops(
   std::vector<float> sizes(vertexCount, 1.0F);
   for (const HandleLoop& loop : loops)
   {
-    const double wanted = loop.length / (kQuadsOfShrunkLoop * edgeLength);
+    const double wanted = loop.length / (kQuadsOfSafeLoop * edgeLength);
     for (const Index v : loop.vertices)
     {
       sizes[v] = std::min(sizes[v], static_cast<float>(std::max(kLeastShrink, wanted)));

@@ -13,9 +13,6 @@ namespace quadrille
 namespace
 {
 
-/// Rounding of a place between three points of a frame, in which no coordinate is above one half.
-constexpr double kPlaceRounding = 1e-12;
-
 using Weights = std::array<double, 3>;
 
 void reverseQuads(QuadMesh& quads)
@@ -60,7 +57,7 @@ void leaveFrameAt(
       weights[1] * mapped.position[mapped.origin[h + 1]] +
       weights[2] * mapped.position[mapped.origin[h + 2]];
     const auto corner = std::find(weights.begin(), weights.end(), 1.0);
-    if ((between - point).cwiseAbs().maxCoeff() > kPlaceRounding)
+    if ((between - point).cwiseAbs().maxCoeff() > kLastDigits)
     {
       point = frame.toUser(point); // it is not on its face
     }

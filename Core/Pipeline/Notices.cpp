@@ -15,16 +15,6 @@
 namespace quadrille
 {
 
-namespace
-{
-
-/// A smaller factor is nothing that a user would see.
-constexpr double kTellRefinement = 1.1;
-/// Nearer points lie on the surface for all that a user would see; in edge lengths.
-constexpr double kTellOffSurface = 0.01;
-
-} // namespace
-
 void tell(const std::vector<std::string>& texts, std::vector<std::string>& notices)
 {
   std::copy_if(texts.begin(), texts.end(), std::back_inserter(notices),
@@ -105,7 +95,7 @@ std::string looseText(const Mesh& mesh, const QuadMesh& quads, double edgeLength
   {
     const Vector3 on = positionOf(mesh, { quads.sourceFace[p], quads.sourceWeights[p] });
     const double off = (quads.points[p] - on).norm() / edgeLength;
-    count += off > kTellOffSurface ? 1 : 0;
+    count += off > kOnePlace ? 1 : 0;
     place = off > farthest ? on : place;
     farthest = std::max(farthest, off);
   }

@@ -14,6 +14,9 @@
 namespace quadrille
 {
 
+/// A smaller factor of sizes is nothing that a user would see.
+constexpr double kTellRefinement = 1.1;
+
 /// Adds those that are not empty.
 void tell(const std::vector<std::string>& texts, std::vector<std::string>& notices);
 

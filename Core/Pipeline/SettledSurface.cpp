@@ -23,13 +23,8 @@ namespace quadrille
 namespace
 {
 
-/// How often handles are looked for and cut: those whose loops meet others' have to wait.
-constexpr int kMostCuttings = 10;
 /// Where a round cuts less than this part of those it has tried, another one is not worth its phase 1.
 constexpr double kWorthwhileCut = 0.125;
-
-/// How often other stubs are looked for that were inside or beside those that were cut off.
-constexpr int kMostThinnings = 6;
 
 /// A simplified surface in the store, without what was asked of it: guides and valences change nothing of it.
 struct StoredSettled
@@ -222,18 +217,14 @@ std::size_t thin(Settling& work, double limit, bool isBegun)
 /// Until no handle below the limit is left that can be closed.
 void cutAll(Settling& work, DetailLimits& limits)
 {
-  for (int cutting = 0; cutting < kMostCuttings; ++cutting)
+  do // those whose loops meet others' have to wait
   {
     measure(work);
     if (!work.takesAll && isCrowdToCut(limits, *work.made.run))
     {
       limits.handles = kQuadsOfLoop * work.sized.edgeLength;
     }
-    if (cut(work, limits.handles) == 0)
-    {
-      break;
-    }
-  }
+  } while (cut(work, limits.handles) > 0);
   if (!work.made.run)
   {
     measure(work);
@@ -242,10 +233,10 @@ void cutAll(Settling& work, DetailLimits& limits)
   const std::vector<SmallDetail>& details = work.made.details;
   const bool isCrowd = static_cast<std::size_t>(
                          std::count_if(details.begin(), details.end(), isHandle)) >= kManyHandles;
-  for (int i = 0;
-       isCrowd && i < kMostThinnings && thin(work, limits.handles, i > 0 || work.isRest) > 0; ++i)
+  for (bool isAnother = work.isRest; isCrowd && thin(work, limits.handles, isAnother) > 0;)
   {
-    measure(work);
+    measure(work); // others were inside or beside those that were cut off
+    isAnother = true;
   }
 }
 

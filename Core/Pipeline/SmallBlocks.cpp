@@ -17,9 +17,6 @@ namespace quadrille
 namespace
 {
 
-/// Components with less area are left out where there are too many small ones.
-constexpr double kQuadsOfSpeck = 1;
-
 /// What a sized surface has of components that are too small for a block of quads.
 struct StoredSmallComponents
 {
@@ -92,7 +89,7 @@ std::string dropSmallComponents(
       return {};
     }
     small = findSmallComponents(
-      surface, sized.edgeLength, std::max(kQuadsOfSpeck, smallest * smallest), options.threads);
+      surface, sized.edgeLength, std::max(1.0, smallest * smallest), options.threads);
   }
   const std::size_t removed = removeSmallComponents(surface, small);
   if (removed == 0)

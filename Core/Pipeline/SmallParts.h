@@ -14,6 +14,9 @@ namespace quadrille
 
 /// So many quads a loop needs, at least, round a handle, through it or round a hole: shorter ones are not resolved.
 constexpr double kQuadsOfLoop = 3;
+/// So many are made to fit round a shorter one. Loops of the intermediate level are up to a tenth too short, and of
+/// four quads a map may leave two, which touch: where nothing else has led to quads, handles below are cut.
+constexpr double kQuadsOfSafeLoop = 4;
 
 /// What quads of the target edge length s cannot resolve. Measured on the intermediate level, whose edges are about s/2
 /// to s long: loops about as long as 3 s come out a tenth too short, those of one or two s up to 40 %.

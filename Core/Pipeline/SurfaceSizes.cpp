@@ -18,9 +18,8 @@ namespace quadrille
 namespace
 {
 
-/// Above this share of the area what is left is not worth a word, nor is a factor of lengths below the other one.
+/// Above this share of the area what is left is not worth a word.
 constexpr double kMostOfArea = 0.94;
-constexpr double kToldFactor = 1.05;
 
 /// How often the edge length is chosen anew where sizes that grow gradually make too many quads, and when it is good.
 constexpr int kSizingRounds = 3;
@@ -42,7 +41,7 @@ std::string adaptiveSizesNotice(
   std::ostringstream text;
   text << std::setprecision(2) << "quads get sizes from " << double{ *least } << " to "
        << double{ *most } << " times the target edge length";
-  if (factor > kToldFactor)
+  if (factor > kTellRefinement)
   {
     text << "; so few quads are longer than curvature and thickness ask for, by a factor of "
          << factor << ": ask for " << std::setprecision(2) << factor * factor

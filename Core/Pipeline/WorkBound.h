@@ -44,7 +44,6 @@ inline WorkBound workBound(
   constexpr std::size_t kOfQuad = 100;
   constexpr std::size_t kMapsOverRun = 2;
   constexpr std::size_t kAttemptsOfLastResort = 8;
-  constexpr std::size_t kAttemptOfFace = 1;
   constexpr std::size_t kAttemptOfQuad = 20;
   WorkBound bound;
   bound.work = std::min(
@@ -53,7 +52,7 @@ inline WorkBound workBound(
   bound.attempts = kMostAttempts;
   bound.attemptsOfLastResort = kAttemptsOfLastResort;
   bound.workOfLastResort = bound.work / 2;
-  bound.ofAttempt = kAttemptOfFace * faces + kAttemptOfQuad * quads;
+  bound.ofAttempt = faces + kAttemptOfQuad * quads;
   return bound;
 }
 

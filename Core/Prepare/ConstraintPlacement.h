@@ -84,9 +84,6 @@ private:
 std::vector<Vector3> courseOf(
   const CurveRequest& curve, const SurfacePlaces& places, const SurfacePaths& paths);
 
-/// Quads' edge lengths within which two places are one vertex.
-constexpr double kOnePlace = 0.01;
-
 /// The valence that the array asks for at a place; 0: none.
 int arrayValenceAt(const SurfaceInput& input, const SurfacePlaces::Place& place, double sameWithin);
 

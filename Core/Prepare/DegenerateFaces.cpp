@@ -21,9 +21,6 @@ constexpr double kCapHeightOfBox = 1e-4;
 /// Cosine of the angle by which a flip may turn the face beyond the edge: there, too, the vertex is as good as on it.
 constexpr double kSamePlane = 0.995;
 
-/// An edge this much shorter than the longest one is collapsed; a longer one means a cap.
-constexpr double kNeedleEdge = 1e-9;
-
 struct Sliver
 {
   double longest; ///< squared
@@ -90,7 +87,7 @@ private:
     const Index shortest = shortestEdge(mesh_, f);
     const Index longest = longestEdge(mesh_, f);
     const bool needle =
-      squaredLength(mesh_, shortest) <= kNeedleEdge * kNeedleEdge * squaredLength(mesh_, longest);
+      squaredLength(mesh_, shortest) <= kRounding * kRounding * squaredLength(mesh_, longest);
     if (needle && mayCollapse(mesh_, shortest))
     {
       collapse(shortest);

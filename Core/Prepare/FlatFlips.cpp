@@ -14,8 +14,6 @@ namespace quadrille
 namespace
 {
 
-/// Least sum of the cotangents of the two angles opposite to an edge that is as good as the other diagonal.
-constexpr double kAlreadyDelaunay = -1e-6;
 /// Least height of a face that is made, over its longest edge.
 constexpr double kLeastHeight = 1e-7;
 
@@ -85,7 +83,7 @@ bool FlatFlips::isFlippable(Index h) const
 {
   const Mesh& mesh = surface_.mesh;
   if (mesh.isConstrained(h) ||
-    !(oppositeCotangent(mesh, h) + oppositeCotangent(mesh, mesh.twin[h]) < kAlreadyDelaunay) ||
+    !(oppositeCotangent(mesh, h) + oppositeCotangent(mesh, mesh.twin[h]) < -kRoundingOfSingle) ||
     !isFlat(h))
   {
     return false;

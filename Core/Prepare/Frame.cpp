@@ -28,8 +28,6 @@ constexpr std::size_t kFineShare = 64;
 /// Rounding goes up from this part of a step on, away from zero. Not one half, nor any simple fraction, as coordinates
 /// that people or programs write sit on such, and there the last bit would decide.
 constexpr double kUp = 0.618;
-/// An enclosed volume below this part of what its terms add up to says nothing.
-constexpr double kNoVolume = 1e-6;
 
 /// Takes differences of coordinates of some magnitude back to the binary fractions that they were before a shift
 /// rounded them: of a surface in single precision, say, that was moved in double precision.
@@ -54,7 +52,8 @@ private:
 /// Length of the first sampled edges of polygons by powers of two; how fine the grid has to be.
 int gridBits(const SurfaceInput& input, double unit)
 {
-  constexpr int kLowestExponent = -64;
+  // A grid for shorter edges would be finer than the finest one.
+  const int lowest = kStepsOfEdge - kMostGridBits;
   constexpr std::size_t kEdgeSamples = std::size_t{ 1 } << 20;
   std::array<std::size_t, 64> count{};
   const std::size_t corners = input.polygonPoints.size();
@@ -67,15 +66,14 @@ int gridBits(const SurfaceInput& input, double unit)
       unit;
     if (length > 0)
     {
-      ++count[static_cast<std::size_t>(
-        std::clamp(std::ilogb(length), kLowestExponent, -1) - kLowestExponent)];
+      ++count[static_cast<std::size_t>(std::clamp(std::ilogb(length), lowest, -1) - lowest)];
       ++sum;
     }
   }
   std::size_t below = 0;
-  int exponent = kLowestExponent;
+  int exponent = lowest;
   while (exponent < -1 &&
-    (below += count[static_cast<std::size_t>(exponent - kLowestExponent)]) * kFineShare <= sum)
+    (below += count[static_cast<std::size_t>(exponent - lowest)]) * kFineShare <= sum)
   {
     ++exponent;
   }
@@ -205,7 +203,7 @@ bool looksInwards(const SurfaceInput& input, int threads)
     volume += part[0];
     terms += part[1];
   }
-  return std::abs(volume) > kNoVolume * terms ? volume < 0 : firstPolygonDescends(input);
+  return std::abs(volume) > kRoundingOfSingle * terms ? volume < 0 : firstPolygonDescends(input);
 }
 
 } // namespace

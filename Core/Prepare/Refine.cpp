@@ -33,8 +33,6 @@ namespace
 constexpr Index kLargeSurface = Index{ 1 } << 18;
 constexpr Index kFewAmong = 256;
 
-constexpr std::size_t kSplitsBetweenReports = 100000;
-
 struct LongEdge
 {
   double squaredLength;
@@ -267,20 +265,19 @@ bool anyConstraint(const Mesh& mesh, int threads)
 }
 
 /// Faces that refinement may end with: so many for each square of the maximum edge length, and for each input face; a
-/// small surface may grow more, and there is an end to all.
+/// small surface may grow more.
 std::size_t faceLimit(const PreparedSurface& surface, double maximumLength)
 {
   constexpr double kFacesPerSquare = 20;
   constexpr double kFacesPerFace = 16;
   constexpr double kFacesPerFaceOfSmall = 160;
   constexpr double kSmallEnd = 4e6;
-  constexpr double kMostRefinedFaces = 1e8;
   const double faces = surface.mesh.faceCount();
   const double area = surface.mesh.sizing.empty() ? surface.area : sizedArea(surface.mesh);
   const double growth =
     std::max(kFacesPerFace * faces, std::min(kFacesPerFaceOfSmall * faces, kSmallEnd));
-  const double wanted = growth + kFacesPerSquare * area / (maximumLength * maximumLength);
-  return static_cast<std::size_t>(std::min(wanted, std::max(faces, kMostRefinedFaces)));
+  return static_cast<std::size_t>(
+    growth + kFacesPerSquare * area / (maximumLength * maximumLength));
 }
 
 /// Faces among the first `count` that had no weights before and have some now.
@@ -351,7 +348,7 @@ bool splitLongEdges(PreparedSurface& surface, double maximumLength, std::size_t 
     {
       flips.flip(edgesOf(mesh, Mesh::face(h), g == kInvalidIndex ? g : Mesh::face(g), added), push);
     }
-    if (++splits % kSplitsBetweenReports == 0)
+    if (++splits % kLightChunk == 0)
     {
       report(progress, 0.8 * (mesh.faceCount() - firstFaces) / (mostFaces - firstFaces),
         "Splitting long edges");

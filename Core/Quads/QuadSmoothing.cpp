@@ -26,8 +26,6 @@ constexpr double kBadShape = 0.4;
 constexpr double kCloseToCurve = 0.08;
 /// For the sake of a curve or a guide shapes may become as bad as this.
 constexpr double kShapeAsAsked = 0.3;
-/// Of cosines between directions: a tenth of a degree.
-constexpr double kSameDirection = 1e-6;
 /// A slide has to lessen the distance of the edges from their curve to this part.
 constexpr double kLeastGainOnCurve = 0.97;
 /// Parts of the way to the next point of a curve, backwards and forwards, that are tried.
@@ -318,7 +316,8 @@ private:
     }
     const auto [backwards, forwards] = alongGuide(p, quads_.points[p]);
     const auto [backwardsThere, forwardsThere] = alongGuide(p, position);
-    return backwardsThere > backwards + kSameDirection || forwardsThere < forwards - kSameDirection;
+    return backwardsThere > backwards + kRoundingOfSingle ||
+      forwardsThere < forwards - kRoundingOfSingle;
   }
 
   /// Cosines between the guide of p and the edges that run along it, backwards and forwards.

@@ -15,7 +15,6 @@ namespace quadrille
 namespace
 {
 
-constexpr int kMostUntanglingSweeps = 30;
 /// A sweep that lowers the badness of a place by less than this part is the last one.
 constexpr double kLeastProgress = 0.01;
 /// Corners with less than this area go on moving once no quad is bad.
@@ -249,9 +248,7 @@ private:
     State best = before;
     std::uint32_t time = 1;
     double left = before.badness;
-    for (int sweep = 0;
-         sweep < kMostUntanglingSweeps && (best.score.bad > 0 || best.score.worst < kMargin);
-         ++sweep)
+    while (best.score.bad > 0 || best.score.worst < kMargin)
     {
       for (const Index p : place.points)
       {

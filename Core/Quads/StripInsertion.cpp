@@ -18,7 +18,7 @@ namespace quadrille
 namespace
 {
 
-constexpr double kTurnCost = 20;
+/// Over that of a step straight on, of a path through an irregular point; a turn makes two of them.
 constexpr double kIrregularCost = 10;
 
 /// A point at the same place, on the other side of the strip.
@@ -147,7 +147,8 @@ private:
     for (Index g = nextInQuad(h); g != topology_.twin[h]; g = nextInQuad(topology_.twin[g]), ++turn)
     {
       const bool isStraight = 2 * turn == valence;
-      reach(g, cost + 1 + (isStraight ? 0 : kTurnCost) + (valence == 4 ? 0 : kIrregularCost), h,
+      reach(g,
+        cost + 1 + (isStraight ? 0 : 2 * kIrregularCost) + (valence == 4 ? 0 : kIrregularCost), h,
         start_[h]);
     }
   }
@@ -212,30 +213,8 @@ std::vector<std::vector<Index>> cornersOnTheRight(
   return corners;
 }
 
-} // namespace
-
-std::optional<QuadPath> findStripPath(const QuadMesh& mesh,
-  const std::vector<std::pair<Index, double>>& starts,
-  const std::function<std::optional<double>(Index start, Index end)>& endCost)
-{
-  return PathSearch(mesh).find(starts, endCost);
-}
-
-std::optional<QuadPath> chordFrom(const std::vector<Index>& twin, Index boundaryHalfEdge)
-{
-  QuadPath chord;
-  std::set<Index> seen;
-  for (Index h = boundaryHalfEdge; h != kInvalidIndex; h = twin[oppositeInQuad(h)])
-  {
-    if (!seen.insert(h / 4).second)
-    {
-      return std::nullopt;
-    }
-    chord.push_back(h);
-  }
-  return chord;
-}
-
+/// Of each point of the strip the ones beside it in quads that are not on it, in the order of the quads, once for each
+/// edge of a quad.
 std::map<Index, std::vector<Index>> pointsBeside(
   const InsertedStrip& strip, const std::vector<std::array<Index, 4>>& quads)
 {
@@ -259,6 +238,30 @@ std::map<Index, std::vector<Index>> pointsBeside(
     }
   }
   return beside;
+}
+
+} // namespace
+
+std::optional<QuadPath> findStripPath(const QuadMesh& mesh,
+  const std::vector<std::pair<Index, double>>& starts,
+  const std::function<std::optional<double>(Index start, Index end)>& endCost)
+{
+  return PathSearch(mesh).find(starts, endCost);
+}
+
+std::optional<QuadPath> chordFrom(const std::vector<Index>& twin, Index boundaryHalfEdge)
+{
+  QuadPath chord;
+  std::set<Index> seen;
+  for (Index h = boundaryHalfEdge; h != kInvalidIndex; h = twin[oppositeInQuad(h)])
+  {
+    if (!seen.insert(h / 4).second)
+    {
+      return std::nullopt;
+    }
+    chord.push_back(h);
+  }
+  return chord;
 }
 
 std::map<Index, Vector3> waysApart(const InsertedStrip& strip, const QuadMesh& mesh)

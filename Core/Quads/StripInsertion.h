@@ -55,13 +55,8 @@ void removeChord(
 /// crossed go on over the strip, and the two new edges of the boundary are lines.
 InsertedStrip insertStrip(QuadMesh& mesh, const QuadPath& path);
 
-/// Of each point of the strip the ones beside it in quads that are not on the strip, in the order of the quads, once
-/// for each edge of a quad.
-std::map<Index, std::vector<Index>> pointsBeside(
-  const InsertedStrip& strip, const std::vector<std::array<Index, 4>>& quads);
-
-/// By how much each of these goes towards those beside it, a third of the way on average, so that both sides of the
-/// strip part.
+/// By how much each point of the strip goes towards those beside it in quads that are not on the strip, a third of the
+/// way on average, so that both sides of the strip part.
 std::map<Index, Vector3> waysApart(const InsertedStrip& strip, const QuadMesh& mesh);
 
 } // namespace quadrille

@@ -3,6 +3,7 @@
 // GPL as it includes headers of CGAL that are.
 #include "Repair/SurfaceWrap.h"
 
+#include "Base/Parallel.h"
 #include "Base/Refuse.h"
 #include "Repair/CgalMesh.h"
 
@@ -18,7 +19,6 @@ namespace
 {
 
 constexpr double kDefaultAlpha = 1.0 / 100; // over the diagonal
-constexpr double kDefaultOffset = 1.0 / 600;
 constexpr double kMostOffsetOverAlpha = 1.0 / 6;
 
 double positive(const char* name, double value)
@@ -45,8 +45,7 @@ public:
   template <class Wrapper, class VertexHandle>
   void after_Steiner_point_insertion(const Wrapper&, VertexHandle) const
   {
-    constexpr std::size_t kBetweenReports = 1024;
-    if (++*points_ % kBetweenReports == 0)
+    if (++*points_ % kHeavyChunk == 0)
     {
       const double made = static_cast<double>(*points_);
       report(*progress_, made / (made + expectedPoints_),
@@ -87,7 +86,7 @@ WrappedSurface wrapSurface(const Soup& soup, const WrapOptions& options)
   result.alpha = positive("alpha", options.alpha.value_or(kDefaultAlpha * soup.diagonal));
   result.offset = positive("the offset",
     options.offset.value_or(
-      std::min(kDefaultOffset * soup.diagonal, kMostOffsetOverAlpha * result.alpha)));
+      kMostOffsetOverAlpha * std::min(kDefaultAlpha * soup.diagonal, result.alpha)));
   refuseIf(result.alpha < kLeastRelativeAlpha * soup.diagonal, "alpha is ", result.alpha,
     ", below a ", 1 / kLeastRelativeAlpha, "th of the diagonal, which is ", soup.diagonal,
     ": give a larger one");

@@ -18,8 +18,6 @@ namespace
 {
 
 constexpr int kSquares = 8;
-/// Sides within which vertices are looked for: the diagonal of a square and a half.
-constexpr double kReach = 2;
 /// Of the side: so near to a corner a vertex has to be.
 constexpr double kNearCorner = 0.5;
 
@@ -73,7 +71,8 @@ std::vector<ValenceRequest> counterparts(
   const PreparedSurface& surface, const ValenceRequest& asked, double side)
 {
   const Mesh& mesh = surface.mesh;
-  const Surroundings around = surroundingsOf(mesh, asked.vertex, kReach * side);
+  const Surroundings around =
+    surroundingsOf(mesh, asked.vertex, (std::sqrt(2.0) + kNearCorner) * side);
   if (around.inside.empty())
   {
     return {}; // on a feature or the boundary

@@ -25,8 +25,6 @@ namespace quadrille
 namespace
 {
 
-/// Points nearer to a vertex, or to an edge, take it, in s.
-constexpr double kTaken = 0.01;
 /// A path takes a vertex in place of a point of a shorter edge than this, in s: it is straight to a tenth of s.
 constexpr double kFineForPaths = 0.2;
 
@@ -251,7 +249,7 @@ private:
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),
       [&](std::size_t a, std::size_t b) { return points[a].x() < points[b].x(); });
-    const double reach = kTaken * s_;
+    const double reach = kOnePlace * s_;
     const auto firstInReach = [&](const Vector3& p)
     {
       return std::lower_bound(order.begin(), order.end(), p.x() - reach,
@@ -365,7 +363,7 @@ private:
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
       const double distance = (mesh_.position[mesh_.origin[h]] - place.point).norm();
-      const bool isTaken = distance <= kTaken * s_ || (fine && !isOnConstraint(h));
+      const bool isTaken = distance <= kOnePlace * s_ || (fine && !isOnConstraint(h));
       if (isTaken && (nearest == kInvalidIndex || distance < least))
       {
         nearest = h;
@@ -378,7 +376,7 @@ private:
   Index newVertexAt(Index f, const Vector3& point)
   {
     Index edge = kInvalidIndex;
-    double least = kTaken * s_;
+    double least = kOnePlace * s_;
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
       const double distance =
@@ -419,7 +417,7 @@ private:
     const double length = mesh_.edgeVector(h).norm();
     const double before = crossing.share * length;
     const double after = length - before;
-    if (std::min(before, after) <= kTaken * s_ || length < kFineForPaths * s_)
+    if (std::min(before, after) <= kOnePlace * s_ || length < kFineForPaths * s_)
     {
       return take(before <= after ? h : Mesh::next(h));
     }

@@ -367,9 +367,6 @@ struct StripPath
   }
 };
 
-/// Of its length: a path counts as shorter from there on.
-constexpr double kShorter = 1 - 1e-12;
-
 /// A part of a strip, from portal `first` on, and what it becomes.
 struct ChangedPart
 {
@@ -434,8 +431,9 @@ std::optional<ChangedPart> ledRound(const Mesh& mesh, std::size_t k, const MeshP
   part.strip.insert(part.strip.end(), at(fan.last + 1), at(part.end));
   const StripPath other(mesh, part.strip, placeOfCorner(mesh, path, low, from, to),
     placeOfCorner(mesh, path, high, from, to));
-  return lengthOf(other.corners) < kShorter * before ? std::optional<ChangedPart>(std::move(part))
-                                                     : std::nullopt;
+  return lengthOf(other.corners) < (1 - kLastDigits) * before
+    ? std::optional<ChangedPart>(std::move(part))
+    : std::nullopt;
 }
 
 /// Changes parts of the strip, ascending and apart, if that makes the path shorter as a whole: between needles parts
@@ -459,7 +457,7 @@ bool changeStrip(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to,
   }
   take(path.strip.size());
   StripPath other(mesh, std::move(strip), from, to);
-  if (!(lengthOf(other.corners) < kShorter * lengthOf(path.corners)))
+  if (!(lengthOf(other.corners) < (1 - kLastDigits) * lengthOf(path.corners)))
   {
     return false;
   }
@@ -496,9 +494,8 @@ bool leadRound(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to, Str
 
 bool liesOn(const Mesh& mesh, Index h, const Vector3& p)
 {
-  constexpr double kOnEdge = 1e-12; // of its length
   return distanceToSegment(p, mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)]) <=
-    kOnEdge * mesh.edgeVector(h).norm();
+    kLastDigits * mesh.edgeVector(h).norm();
 }
 
 /// Without the faces that the path only touches, where it begins or ends on their edges. face: the first one of the

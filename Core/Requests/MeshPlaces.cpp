@@ -14,9 +14,6 @@ namespace quadrille
 namespace
 {
 
-/// Of the mesh's size: points so near to a face lie on it, whatever rounding has done to both.
-constexpr double kOnMesh = 1e-5;
-
 struct FoundPlace
 {
   double squared = kInfinity;
@@ -112,7 +109,8 @@ std::vector<MeshPlace> placesOnMesh(
   {
     size = std::max(size, p.cwiseAbs().maxCoeff());
   }
-  const std::vector<FoundPlace> near = nearestWithin(mesh, points, kOnMesh * size, threads);
+  const std::vector<FoundPlace> near =
+    nearestWithin(mesh, points, kRoundingOfSingle * size, threads);
   std::vector<MeshPlace> places;
   for (std::size_t i = 0; i < points.size(); ++i)
   {

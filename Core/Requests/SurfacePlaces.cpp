@@ -205,10 +205,8 @@ SurfacePlaces::Place SurfacePlaces::nearestPlace(const Vector3& p) const
   {
     throw InvalidInput("no place on the surface was found for the point " + placeText(p));
   }
-  // What lies on the surface already, up to rounding, stays where it is.
-  constexpr double kRoundingOfPlace = 1e-14;
   const Vector3 place = placeOn(nearest);
-  const bool isOn = (place - p).norm() <= kRoundingOfPlace * diagonal_;
+  const bool isOn = (place - p).norm() <= kLastDigits * diagonal_;
   return { trianglePolygon_.empty() ? nearest : trianglePolygon_[nearest], isOn ? p : place };
 }
 

@@ -18,7 +18,6 @@ namespace
 /// Between two of them, in radii of the region; and in quads of the size that is asked for, as irregular vertices that
 /// are nearer to each other leave a map no room.
 constexpr double kSpacingOfRegion = 0.15;
-constexpr double kSpacingInQuads = 1;
 
 } // namespace
 
@@ -34,8 +33,7 @@ std::vector<Index> verticesForSizes(const PreparedSurface& surface, double edgeL
   for (const SizeRequest& size : surface.sizes)
   {
     const double reach = size.radius + std::abs(size.factor - 1) / kSizeGrowth * edgeLength;
-    const double spacing =
-      std::max(kSpacingOfRegion * reach, kSpacingInQuads * size.factor * edgeLength);
+    const double spacing = std::max(kSpacingOfRegion * reach, size.factor * edgeLength);
     std::vector<Index> kept;
     for (Index v = 0; v < mesh.vertexCount(); ++v)
     {

@@ -106,8 +106,7 @@ void measureDistance(
       longest = std::max(longest, (a - b).norm());
     }
   }
-  constexpr double kUnits = 1 << 24; // of the longest way
-  const double scale = longest > 0 ? kUnits / longest : 0;
+  const double scale = longest > 0 ? kUnitsOfLongest / longest : 0;
   MinCostFlow flow(static_cast<Index>(give.size() + take.size()));
   for (std::size_t i = 0; i < give.size(); ++i)
   {

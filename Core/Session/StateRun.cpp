@@ -304,7 +304,7 @@ private:
       const auto asked = std::find_if(composed_.irregular.begin(), composed_.irregular.end(),
         [&](const IrregularVertex& other) { return (other.place - vertex.place).norm() <= reach; });
       const int valence = asked == composed_.irregular.end() ? kRegularValence : asked->valence;
-      if (mirrored_.plane.height(vertex.place) >= -kMirrorTolerance * mirrored_.diagonal &&
+      if (mirrored_.plane.height(vertex.place) >= -kRoundingOfSingle * mirrored_.diagonal &&
         valence != vertex.valence)
       {
         result.report.notices.push_back("the operations leave valence " + std::to_string(valence) +

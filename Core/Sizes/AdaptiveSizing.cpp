@@ -22,21 +22,17 @@ constexpr double kCurvatureRadius = 0.5;
 constexpr double kMetTolerance = 1.05;
 /// Of a bisection for the edge length, and for the factor of the lengths.
 constexpr double kLengthTolerance = 1 + 1e-4;
-constexpr double kFactorTolerance = 1.01;
 constexpr double kMostFactor = 1e4;
 /// The share of the area that may be held at the smallest size before lengths are multiplied instead.
 constexpr double kMostStopped = 0.05;
-constexpr double kClearlyBelow = 0.99;
 /// Of lengths, by their logarithm: each is less than a hundredth wide for lengths from 1 to 10^8.
 constexpr std::size_t kLengthBins = 4096;
-
-constexpr float kNoLength = std::numeric_limits<float>::infinity();
 
 /// The smallest value of the patches round each vertex.
 std::vector<float> toVertices(
   const Mesh& mesh, const SurfacePatches& patches, const std::vector<float>& ofPatch)
 {
-  std::vector<float> result(mesh.vertexCount(), kNoLength);
+  std::vector<float> result(mesh.vertexCount(), kInfinityOfSingle);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     pollNowAndThen(h);
@@ -79,11 +75,11 @@ float lengthByCurvature(double curvature, const AdaptiveSizes& sizes)
 {
   if (!(curvature > 0))
   {
-    return kNoLength;
+    return kInfinityOfSingle;
   }
   const double byChord =
-    sizes.chordError ? std::sqrt(8 * *sizes.chordError / curvature) : double{ kNoLength };
-  const double byTurn = sizes.turn ? *sizes.turn / curvature : double{ kNoLength };
+    sizes.chordError ? std::sqrt(8 * *sizes.chordError / curvature) : double{ kInfinityOfSingle };
+  const double byTurn = sizes.turn ? *sizes.turn / curvature : double{ kInfinityOfSingle };
   return static_cast<float>(std::min(byChord, byTurn));
 }
 
@@ -169,7 +165,8 @@ public:
     double stopped = 0;
     for (const Entry& entry : entries_)
     {
-      const bool isBelow = factor * entry.length < kClearlyBelow * sizes_.smallest * edgeLength;
+      const bool isBelow =
+        factor * entry.length < (1 - kRoundingOfSingle) * sizes_.smallest * edgeLength;
       stopped += isBelow ? entry.area : 0;
     }
     return stopped / area_;
@@ -179,18 +176,18 @@ private:
   struct Entry
   {
     double area = 0;
-    float length = kNoLength;
-    float asked = kNoLength;
+    float length = kInfinityOfSingle;
+    float asked = kInfinityOfSingle;
   };
 
   /// Millions of vertices are few different lengths.
   void addBins(const std::vector<double>& areas, const std::vector<float>& lengths)
   {
-    float least = kNoLength, most = 0;
+    float least = kInfinityOfSingle, most = 0;
     for (const float length : lengths)
     {
       least = std::min(least, length);
-      most = length < kNoLength ? std::max(most, length) : most;
+      most = length < kInfinityOfSingle ? std::max(most, length) : most;
     }
     const double scale =
       most > least ? kLengthBins / std::log(double{ most } / double{ least }) : 0;
@@ -198,7 +195,7 @@ private:
     double withoutLength = 0;
     for (std::size_t v = 0; v < lengths.size(); ++v)
     {
-      if (!(lengths[v] < kNoLength))
+      if (!(lengths[v] < kInfinityOfSingle))
       {
         withoutLength += areas[v];
         continue;
@@ -211,10 +208,11 @@ private:
     {
       if (area[bin] > 0)
       {
-        entries_.push_back({ area[bin], static_cast<float>(sum[bin] / area[bin]), kNoLength });
+        entries_.push_back(
+          { area[bin], static_cast<float>(sum[bin] / area[bin]), kInfinityOfSingle });
       }
     }
-    entries_.push_back({ withoutLength, kNoLength, kNoLength });
+    entries_.push_back({ withoutLength, kInfinityOfSingle, kInfinityOfSingle });
   }
 
   double quadsOf(double factor, double edgeLength) const
@@ -254,7 +252,7 @@ std::vector<float> adaptiveLengths(const Mesh& mesh, const AdaptiveSizes& sizes,
   double reach, int threads, const CornerCurvatures& known)
 {
   const SurfacePatches patches = findPatches(mesh, kCurvatureRadius / 2 * edgeLength, threads);
-  std::vector<float> lengths(mesh.vertexCount(), kNoLength);
+  std::vector<float> lengths(mesh.vertexCount(), kInfinityOfSingle);
   if (sizes.gapQuads > 0)
   {
     lengths = toVertices(mesh, patches,
@@ -280,7 +278,7 @@ void setAdaptiveSizes(Mesh& mesh, const std::vector<float>& asked,
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     mesh.sizing.edit()[v] = static_cast<float>(
-      adaptedSize(asked.empty() ? kNoLength : asked[v], lengths[v], sizes, edgeLength));
+      adaptedSize(asked.empty() ? kInfinityOfSingle : asked[v], lengths[v], sizes, edgeLength));
   }
 }
 
@@ -301,7 +299,7 @@ DistributedSizes distributeSizes(const Mesh& mesh, const std::vector<float>& ask
     low = high;
     high *= 2;
   }
-  while (high > kFactorTolerance * low)
+  while (high > kLengthTolerance * low)
   {
     const double middle = std::sqrt(low * high);
     const bool isEnough =

@@ -29,8 +29,6 @@ namespace
 /// Edges beside what has a size are split down to this part of the diagonal: about an edge of 30,000 quads on a part
 /// like a cube, so that sizes end within a quad.
 constexpr double kShortest = 1.0 / 300;
-/// Points this near to an edge or vertex are on it, over the diagonal.
-constexpr double kOnPart = 1e-7;
 
 std::string trimmed(const std::string& text)
 {
@@ -427,7 +425,7 @@ SizedTriangles NamedParts::sized() const
     {
       pollNowAndThen(i);
       if (static_cast<float>(factor) < result.sizes[i] &&
-        tree.at(result.points[i], Vector3::Zero(), kOnPart * diagonal))
+        tree.at(result.points[i], Vector3::Zero(), kRoundingOfSingle * diagonal))
       {
         result.sizes[i] = static_cast<float>(factor);
       }

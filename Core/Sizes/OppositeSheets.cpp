@@ -1,26 +1,23 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Rays against a tree of boxes. The faces of a surface lie along a space-filling curve, so a tree over runs of them
-/// needs no sorting.
+/// Rays against a tree of boxes.
 #include "Sizes/OppositeSheets.h"
 
 #include "Base/Angles.h"
 #include "Base/Lists.h"
 #include "Base/Parallel.h"
-
-#include <Eigen/Geometry>
+#include "Mesh/BoxTree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 namespace quadrille
 {
 namespace
 {
 
-/// Faces in a leaf, and children of a node.
-constexpr Index kBranches = 8;
 const double kLeastOpposition = std::cos(kPi / 4);
 
 struct SurfaceRay
@@ -29,12 +26,12 @@ struct SurfaceRay
 };
 
 /// Where the ray enters the box, or infinity where it misses it.
-double entryOf(const Eigen::AlignedBox3f& box, const SurfaceRay& ray)
+double entryOf(const BoxTree::Box& box, const SurfaceRay& ray)
 {
   double enter = 0, leave = kInfinity;
   for (int i = 0; i < 3; ++i)
   {
-    const double low = box.min()[i] - ray.from[i], high = box.max()[i] - ray.from[i];
+    const double low = box.low[i] - ray.from[i], high = box.high[i] - ray.from[i];
     if (ray.direction[i] == 0)
     {
       if (low > 0 || high < 0)
@@ -55,74 +52,31 @@ class SheetTree
 public:
   SheetTree(const Mesh& mesh, int threads) : mesh_(mesh)
   {
-    makeLevel(mesh.faceCount(), threads, [&](Index f) { return boxOfFace(f); });
-    while (levels_.back().size() > 1)
-    {
-      const std::vector<Eigen::AlignedBox3f> below = levels_.back();
-      makeLevel(below.size(), threads, [&](Index i) { return below[i]; });
-    }
+    std::vector<BoxTree::Box> boxes(mesh.faceCount());
+    parallelForEach(boxes.size(), kMediumChunk, threads,
+      [&](std::size_t f) { boxes[f] = boxOfFace(static_cast<Index>(f)); });
+    tree_ = BoxTree(boxes, threads);
   }
 
   /// The distance from `ray.from` to the first face that `isOpposite`, if it is below `nearest`; else that.
   template <typename Predicate>
   double firstHit(const SurfaceRay& ray, double nearest, const Predicate& isOpposite) const
   {
-    visit(levels_.size() - 1, 0, ray, nearest, isOpposite);
+    tree_.visitWhere([&](const BoxTree::Box& box) { return entryOf(box, ray) < nearest; },
+      [&](Index f) { nearest = isOpposite(f) ? std::min(nearest, hit(f, ray)) : nearest; });
     return nearest;
   }
 
 private:
-  /// A little larger than the face: its corners are rounded to single precision.
-  Eigen::AlignedBox3f boxOfFace(Index f) const
+  /// A little larger than the face, as rays are rounded.
+  BoxTree::Box boxOfFace(Index f) const
   {
-    Eigen::AlignedBox3f box;
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
-    {
-      const Vector3& p = mesh_.position[mesh_.origin[h]];
-      const Vector3 margin = Vector3::Constant(1e-6 * p.cwiseAbs().maxCoeff());
-      box.extend((p - margin).cast<float>());
-      box.extend((p + margin).cast<float>());
-    }
-    return box;
-  }
-
-  template <typename BoxOf>
-  void makeLevel(std::size_t children, int threads, const BoxOf& boxOf)
-  {
-    std::vector<Eigen::AlignedBox3f> level((children + kBranches - 1) / kBranches);
-    parallelForEach(level.size(), kMediumChunk, threads,
-      [&](std::size_t i)
-      {
-        const std::size_t last = std::min(children, (i + 1) * kBranches);
-        for (std::size_t child = i * kBranches; child < last; ++child)
-        {
-          level[i].extend(boxOf(static_cast<Index>(child)));
-        }
-      });
-    levels_.push_back(std::move(level));
-  }
-
-  template <typename Predicate>
-  void visit(std::size_t level, Index node, const SurfaceRay& ray, double& nearest,
-    const Predicate& isOpposite) const
-  {
-    if (!(entryOf(levels_[level][node], ray) < nearest))
-    {
-      return;
-    }
-    const std::size_t children = level > 0 ? levels_[level - 1].size() : mesh_.faceCount();
-    const auto last = static_cast<Index>(std::min(children, std::size_t{ node + 1 } * kBranches));
-    for (Index child = node * kBranches; child < last; ++child)
-    {
-      if (level > 0)
-      {
-        visit(level - 1, child, ray, nearest, isOpposite);
-      }
-      else if (isOpposite(child))
-      {
-        nearest = std::min(nearest, hit(child, ray));
-      }
-    }
+    const std::array<Vector3, 3> p{ mesh_.position[mesh_.origin[3 * f]],
+      mesh_.position[mesh_.origin[3 * f + 1]], mesh_.position[mesh_.origin[3 * f + 2]] };
+    BoxTree::Box box{ p[0].cwiseMin(p[1]).cwiseMin(p[2]), p[0].cwiseMax(p[1]).cwiseMax(p[2]) };
+    const Vector3 margin =
+      kRounding * box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff() * Vector3::Ones();
+    return { box.low - margin, box.high + margin };
   }
 
   /// Along the ray to the face; infinite where it misses.
@@ -141,7 +95,7 @@ private:
   }
 
   const Mesh& mesh_;
-  std::vector<std::vector<Eigen::AlignedBox3f>> levels_; ///< from the leaves on
+  BoxTree tree_; ///< of the faces
 };
 
 /// Along the patch's normal either way.
@@ -168,7 +122,7 @@ std::vector<float> distancesToOpposite(
   const Mesh& mesh, const SurfacePatches& patches, double reach, int threads)
 {
   const SheetTree tree(mesh, threads);
-  std::vector<float> single(patches.patches.size(), std::numeric_limits<float>::infinity());
+  std::vector<float> single(patches.patches.size(), kInfinityOfSingle);
   parallelForEach(single.size(), kHeavyChunk, threads,
     [&](std::size_t i)
     {

@@ -27,8 +27,6 @@ namespace
 
 /// Rows of quads beside the plane that move along.
 constexpr double kRows = 8;
-/// Fewer, halved each time, where the system for them would be too large.
-constexpr double kLeastRows = 1;
 
 /// Inside the parts in the plane two turns, one at their ends: then they can move by half a quad.
 Status checkStraight(
@@ -244,7 +242,7 @@ Status insetPlane(const RemeshResult& half, const std::vector<std::uint8_t>& isG
       bandFixed[v] |= fixed[band.vertex[v]];
     }
     const RelaxResult relaxed = relaxMap(band.mesh, bandFixed, relax, bandUv);
-    if (relaxed.status.code == StatusCode::TooLarge && rows > kLeastRows)
+    if (relaxed.status.code == StatusCode::TooLarge && rows > 1) // half as many are tried
     {
       continue;
     }

@@ -7,15 +7,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace quadrille
 {
 namespace
 {
-
-/// So often a segment of a line is halved towards the cut that it crosses.
-constexpr int kHalvingsToCut = 48;
 
 /// A piece of a line that lies in one part, taken to the part that is made.
 struct PieceInPart
@@ -28,7 +26,7 @@ struct PieceInPart
 std::pair<Vector3, Vector3> crossingOf(const PartTask& task, Vector3 inside, Vector3 beyond)
 {
   const int steps = task.stepsToPart(inside);
-  for (int i = 0; i < kHalvingsToCut; ++i)
+  for (int i = 0; i < std::numeric_limits<double>::digits; ++i)
   {
     const Vector3 middle = 0.5 * (inside + beyond);
     (task.stepsToPart(middle) == steps ? inside : beyond) = middle;

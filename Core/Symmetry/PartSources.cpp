@@ -12,8 +12,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kImageChunk = 1024;
-
 /// The faces of the whole under faces of images that come one after the other.
 class NearImages
 {
@@ -161,7 +159,7 @@ ImageSources PartSources::ofImages(
   const Index count = copied.mesh.faceCount() - copied.partFaces;
   images.face.resize(count);
   images.weights.resize(count);
-  parallelFor(count, kImageChunk, threads,
+  parallelFor(count, kMediumChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       NearImages near(whole_, deviation, tolerance);

@@ -3,7 +3,7 @@
 /// Quads with a symmetry. Of a mirror symmetry: the half of the surface in front of a plane is remeshed, and its quads
 /// and their images are one mesh. The plane's curve is a boundary of the half, hence an isoline. Connectivity is
 /// symmetric by construction, whatever the surface is; points behind the plane are exact images where the surface is
-/// symmetric to within kMirrorTolerance, else they are put onto the surface.
+/// symmetric to within kRoundingOfSingle, else they are put onto the surface.
 ///
 /// Of a rotation: a wedge between two half planes is remeshed, with both cuts as boundaries that get the same number of
 /// edges (see Requests/SeamRequests.h), and its quads and those turned by 1 to n - 1 steps are one mesh.
@@ -20,9 +20,6 @@
 namespace quadrille
 {
 
-/// Over the diagonal of the surface's box: vertices that are nearer to the plane are put into it, and images that are
-/// nearer to the surface stay where they are. Coordinates in single precision are known to a tenth of it.
-constexpr double kMirrorTolerance = 1e-6;
 /// A surface whose image is farther from it, as the root of the mean square over the diagonal, is refused.
 constexpr double kLeastSymmetric = 0.05;
 

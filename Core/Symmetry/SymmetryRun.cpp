@@ -174,7 +174,7 @@ void SymmetryRun::prepare(SurfaceInput& input)
   }
   tell({ settleQuads(surface(), areaOverSizes(surface()), store_, key_, options_) }, told_.notices);
   made_.diagonal = surface().boundingBoxDiagonal;
-  tolerance_ = kMirrorTolerance * made_.diagonal;
+  tolerance_ = kRoundingOfSingle * made_.diagonal;
   asked_.drawn = std::move(input.drawn);
   input = {};
 }

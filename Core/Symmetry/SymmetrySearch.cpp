@@ -20,11 +20,10 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kFirstSamples = 200;  ///< for all candidates
-constexpr std::size_t kMiddleSamples = 500; ///< for the best of them
-constexpr std::size_t kLastSamples = 4000;  ///< for the result
-constexpr std::size_t kRefined = 6;         ///< candidates
-constexpr int kFewSteps = 8, kMostSteps = 30;
+constexpr std::size_t kFewSamples = 500;   ///< for all candidates
+constexpr std::size_t kLastSamples = 4000; ///< for the result
+constexpr std::size_t kRefined = 6;        ///< candidates
+constexpr int kMostSteps = 30;
 constexpr std::size_t kMostPoints = 20000; ///< of the surface, for the maximum
 /// Steps go on while they make the deviation less by this share, or it is rounding.
 constexpr double kStillBetter = 1e-3;
@@ -285,11 +284,11 @@ public:
   }
 
   /// The best one on the way.
-  Candidate run(Isometry isometry, int steps) const
+  Candidate run(Isometry isometry) const
   {
     Candidate best;
     int stalled = 0;
-    for (int i = 0; i <= steps; ++i)
+    for (int i = 0; i <= kMostSteps; ++i)
     {
       const Places places = nearestImages(surface_, isometry, samples_, threads_);
       const double rms = rmsOf(places);
@@ -379,7 +378,7 @@ Isometry findBy(const NearestTriangle& surface, Isometry isometry, int threads)
   const TriangleList& list = surface.triangles();
   const SurfaceMoments moments = measureMoments(list);
   const NearestTriangle few(thinnedOut(list));
-  std::vector<Vector3> samples = sampleByArea(list, kFirstSamples);
+  std::vector<Vector3> samples = sampleByArea(list, kFewSamples);
   std::vector<Candidate> candidates;
   isometry.origin = moments.centre;
   for (const Vector3& direction : candidateDirections(moments))
@@ -389,17 +388,15 @@ Isometry findBy(const NearestTriangle& surface, Isometry isometry, int threads)
   }
   sortByRms(candidates, moments.size);
   candidates.resize(std::min(candidates.size(), kRefined));
-  samples = sampleByArea(list, kMiddleSamples);
   for (Candidate& candidate : candidates)
   {
-    candidate =
-      Refinement<Change>(few, samples, moments.size, threads).run(candidate.isometry, kFewSteps);
+    candidate = Refinement<Change>(few, samples, moments.size, threads).run(candidate.isometry);
     candidate.rms = rmsOf(nearestImages(surface, candidate.isometry, samples, threads));
   }
   sortByRms(candidates, moments.size);
   samples = sampleByArea(list, kLastSamples);
   isometry = Refinement<Change>(surface, samples, moments.size, threads)
-               .run(candidates.front().isometry, kMostSteps)
+               .run(candidates.front().isometry)
                .isometry;
   isometry.direction = withSign(isometry.direction);
   isometry.origin = isometry.foot(moments.centre);

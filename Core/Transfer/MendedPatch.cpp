@@ -15,12 +15,9 @@ namespace
 
 /// Defects that a wrong winding of positive triangles counts for.
 constexpr std::size_t kLostTurn = 16;
-/// A patch vertex with more faces than this stays where it is.
-constexpr std::size_t kMaximumFan = 256;
 
 /// All corners of the vertex of `corner`, counterclockwise, for a boundary vertex from its boundary half-edge on.
-/// Fails for an absurdly large fan.
-bool collectCorners(const Mesh& mesh, Index corner, std::vector<Index>& corners, bool& interior)
+void collectCorners(const Mesh& mesh, Index corner, std::vector<Index>& corners, bool& interior)
 {
   Index first = corner;
   interior = true;
@@ -43,8 +40,7 @@ bool collectCorners(const Mesh& mesh, Index corner, std::vector<Index>& corners,
   {
     corners.push_back(h);
     h = mesh.rotateCounterclockwise(h);
-  } while (h != first && h != kInvalidIndex && corners.size() < kMaximumFan);
-  return corners.size() < kMaximumFan;
+  } while (h != first && h != kInvalidIndex);
 }
 
 } // namespace
@@ -200,11 +196,7 @@ void MendedPatch::addFan(Index corner)
 bool MendedPatch::walkFan(Index corner, std::vector<PatchCorner>& fan, bool& interior) const
 {
   std::vector<Index> corners;
-  if (!collectCorners(mesh_, corner, corners, interior))
-  {
-    fan.push_back({ corner, 0 });
-    return false;
-  }
+  collectCorners(mesh_, corner, corners, interior);
   bool closes = true;
   int rotation = 0;
   for (std::size_t i = 0; i < corners.size(); ++i)

@@ -30,11 +30,6 @@ constexpr std::size_t kMaximumPatchFaces = 10000;
 /// Faces times steps of the untangler: of one try, and of all tries besides half the faces of the mesh.
 constexpr std::size_t kWorkPerTry = 200000;
 constexpr std::size_t kMaximumWork = 5000000;
-/// The same where so many faces are to be mended that their cause is no matter of a few places.
-constexpr std::size_t kWorkOnMany = 1000000;
-constexpr std::size_t kManySeeds = 4000;
-constexpr std::size_t kLeastSteps = 30;
-constexpr std::size_t kMostUntanglingSteps = 250;
 
 /// What the untangler minimizes, and when what comes of it is taken.
 enum class Energy
@@ -88,8 +83,7 @@ MendResult PatchMender::run(const ProgressCallback& progress)
   // Small patches of all places come first, so that a hopeless place does not use up the work of the others.
   std::size_t patches = 0;
   std::vector<Index> seeds = defects_.find(threads_);
-  const std::size_t limit =
-    (seeds.size() > kManySeeds ? kWorkOnMany : kMaximumWork) + mesh_.faceCount() / 2;
+  const std::size_t limit = kMaximumWork + mesh_.faceCount() / 2;
   for (std::size_t growth = 0; growth < kGrowth.size() && !seeds.empty(); ++growth)
   {
     std::fill(tried_.begin(), tried_.end(), std::uint8_t{ 0 });
@@ -201,8 +195,7 @@ bool PatchMender::embedFrom(
 {
   const std::size_t before = patch_.countDefects();
   const std::vector<FixedVec2> saved = patch_.corners();
-  const int steps = static_cast<int>(
-    std::clamp(kWorkPerTry / patch_.faces().size(), kLeastSteps, kMostUntanglingSteps));
+  const int steps = static_cast<int>(kWorkPerTry / patch_.faces().size());
   UntangleOptions options;
   options.maximumSteps = steps;
   if (energy == Energy::Turned)

@@ -22,11 +22,9 @@ namespace
 
 using Polygon = std::vector<Complex>;
 
-/// Steps from triangle to triangle after which a walk stays where it is: only triangles without area make it go in
-/// circles.
+/// Steps from triangle to triangle after which a walk stays where it is, as only triangles without area make it go in
+/// circles, and a face reaches no farther.
 constexpr int kMostCircleSteps = 64;
-/// Triangles through which a face may reach; what is farther counts for the last one.
-constexpr int kMostDepth = 24;
 
 double cross(Complex a, Complex b)
 {
@@ -225,7 +223,7 @@ public:
   void operator()(Index f, Index entered, Polygon polygon, const Value& value, const Add& add,
     int depth = 0) const
   {
-    for (Index h = 3 * f; h < 3 * f + 3 && depth < kMostDepth; ++h)
+    for (Index h = 3 * f; h < 3 * f + 3 && depth < kMostCircleSteps; ++h)
     {
       if (h == entered || planes_.mesh().isBoundary(h))
       {

@@ -79,7 +79,7 @@ TEST(JoinParts, NearPointsAreOne)
   for (const double factor : { 0.4, 3.0 })
   {
     std::vector<SurfaceInput> parts{ squareSheet(4, Vector3::Zero(), kX, kY),
-      squareSheet(4, factor * kSamePlace * size * kX.normalized(), kZ, kY) };
+      squareSheet(4, factor * kRoundingOfSingle * size * kX.normalized(), kZ, kY) };
     const PartContacts contacts = contactsOf(parts);
     EXPECT_EQ(contacts.edges, factor < 1 ? 4U : 0U);
     const JoinedParts joined = joinParts(parts, contacts);

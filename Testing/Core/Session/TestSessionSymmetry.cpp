@@ -72,7 +72,7 @@ TEST(SessionSymmetry, QuadsAreTheirOwnImage)
   ASSERT_EQ(report.constraints.size(), 1u);
   EXPECT_TRUE(report.constraints[0].isMet) << report.constraints[0].reason;
   EXPECT_EQ(report.constraints[0].kind, "symmetry");
-  EXPECT_LT(report.constraints[0].deviation, kMirrorTolerance);
+  EXPECT_LT(report.constraints[0].deviation, kRoundingOfSingle);
   expectMirrored(*session.result());
   const SymmetricResult direct =
     remeshSymmetric(lopsided(), session.settings(), { kAcrossX.plane });

@@ -110,7 +110,7 @@ void expectMapOfTheQuads(const SymmetricResult& made)
   const RemeshResult& result = made.remeshed;
   EXPECT_NEAR(result.certificate.area, static_cast<double>(result.quads.quads.size()), 1e-6);
   const Mesh& mesh = result.surface.mesh;
-  const double tolerance = kMirrorTolerance * made.diagonal;
+  const double tolerance = kRoundingOfSingle * made.diagonal;
   std::size_t inPlane = 0;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
@@ -349,7 +349,7 @@ TEST(MidLine, NearlySymmetricSurfaceIsFollowed)
   expectSymmetricConnectivity(made);
   expectPlaneInQuads(made, 1, 0);
   // Vertices nearer to the plane than this were put into it.
-  expectSources(made, input, kMirrorTolerance);
+  expectSources(made, input, kRoundingOfSingle);
   EXPECT_GT(made.movedPoints, 0U);
   const QuadQuality quality = evaluateQuads(made.remeshed.quads.points, made.remeshed.quads.quads);
   EXPECT_TRUE(quality.manifold && quality.closed);

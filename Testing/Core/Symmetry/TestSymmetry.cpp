@@ -55,7 +55,7 @@ TEST(Symmetry, APlaneThatCutsTrianglesAnywhere)
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   expectSymmetricConnectivity(made);
   expectPlaneOnEdges(made);
-  expectSources(made, input, kMirrorTolerance);
+  expectSources(made, input, kRoundingOfSingle);
   expectWhole(made, 0, true);
   // The facets of 50 sides differ from their images by less than the sagitta of a side.
   EXPECT_GT(made.movedPoints, 0U);
