@@ -491,8 +491,9 @@ private:
   static void failWithoutIntegers(Component& component, QuantizeResult quantized)
   {
     component.seamlessUv.clear();
-    component.fail(
-      quantized.status, std::move(quantized.uv), {}, { std::move(quantized.failedFaces), {} });
+    std::vector<Index> corners = cornerVertices(component.part.mesh, quantized.failedFaces);
+    component.fail(quantized.status, std::move(quantized.uv), std::move(corners),
+      { std::move(quantized.failedFaces), {} });
   }
 
   void makeIntegers(Component& component, double quads, const ProgressCallback& progress)

@@ -527,7 +527,13 @@ bool IntegerMap::isValid() const
 {
   const bool sound = std::all_of(faces_.begin(), faces_.end(),
     [&](Index f) { return residual(f) == FixedVec2{} && isSound(f); });
-  return sound && windings([&](Index h) { return inQuads(q_[h]); }) == turns_;
+  return sound && wrongWindings().empty();
+}
+
+std::vector<Index> IntegerMap::wrongWindings() const
+{
+  const std::vector<int> turns = windings([&](Index h) { return inQuads(q_[h]); });
+  return idsWhere(turns.size(), [&](Index v) { return turns[v] != turns_[v]; });
 }
 
 } // namespace quadrille

@@ -110,6 +110,8 @@ public:
   double area() const;
   /// Every triangle closed and sound, and the winding at every vertex that of the seamless map.
   bool isValid() const;
+  /// The vertices that wind otherwise than in the seamless map, ascending; of triangles that are closed and sound.
+  std::vector<Index> wrongWindings() const;
 
   /// Along an axis.
   static std::int64_t lengthOf(FixedVec2 q) { return std::abs(q.u) + std::abs(q.v); }

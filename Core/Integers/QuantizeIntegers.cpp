@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Integers/QuantizeIntegers.h"
 
+#include "Base/Lists.h"
 #include "Base/TryCount.h"
 #include "Base/WorkCount.h"
 #include "Integers/StripSearch.h"
@@ -604,6 +605,14 @@ std::vector<Index> brokenFaces(const IntegerMap& map)
   std::vector<Index> broken;
   std::copy_if(map.faces().begin(), map.faces().end(), std::back_inserter(broken),
     [&](Index f) { return map.residual(f) != FixedVec2{} || !map.isSound(f); });
+  if (broken.empty())
+  {
+    for (const Index v : map.wrongWindings())
+    {
+      append(broken, facesAround(map.mesh(), v));
+    }
+    sortUnique(broken);
+  }
   return broken;
 }
 

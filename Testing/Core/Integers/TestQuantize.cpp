@@ -6,8 +6,12 @@
 #include "Integers/QuantizeIntegers.h"
 #include "Integers/UvDecimation.h"
 #include "SyntheticMaps.h"
+#include "TestMeshes.h"
 
 #include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
 
 namespace quadrille::test
 {
@@ -358,6 +362,56 @@ TEST(IntegerMap, CurvesThatBendKeepTheirNumber)
   integers.setPull(0.5);
   EXPECT_EQ(integers.target(0), 1.625 * bent);
   EXPECT_EQ(integers.target(1), 0.5 * other);
+}
+
+/// A fan of eight sound triangles that goes round its middle twice: what is told is where that is.
+TEST(IntegerMap, TrianglesThatWindTwiceAreTold)
+{
+  std::vector<Vector3> points{ Vector3(0, 0, 0) };
+  std::vector<Triangle> triangles;
+  const std::vector<std::pair<int, int>> ring{ { 1, -1 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { -1, 1 },
+    { -1, 0 }, { -1, -1 }, { 0, -1 } };
+  for (const auto& [x, y] : ring)
+  {
+    const auto k = static_cast<Index>(points.size());
+    points.emplace_back(x, y, 0);
+    triangles.push_back({ 0, k, k % 8 + 1 });
+  }
+  SyntheticMap map;
+  map.mesh = makeMesh(points, triangles);
+  for (Index h = 0; h < map.mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = map.mesh.position[map.mesh.origin[h]];
+    map.uv.push_back(toFixed(Vector2(p.x(), p.y())));
+  }
+  map.field = fieldOf(map.mesh, map.uv);
+  UvMesh uvMesh = UvMesh::from(map.mesh, map.field, map.uv);
+  UvEditor editor(uvMesh);
+  IntegerMap integers(uvMesh, editor, std::vector<std::uint8_t>(9, 1));
+  integers.round(1);
+  ASSERT_TRUE(integers.isValid());
+  EXPECT_TRUE(integers.wrongWindings().empty());
+  EXPECT_TRUE(brokenFaces(integers).empty());
+
+  const auto spoke = [](Index k) { return rotate(FixedVec2{ kGrain, 0 }, static_cast<int>(k)); };
+  for (Index h = 0; h < map.mesh.halfEdgeCount(); ++h)
+  {
+    const Index a = map.mesh.origin[h], b = map.mesh.target(h);
+    if (a == 0 || map.mesh.isBoundary(h))
+    {
+      const FixedVec2 wanted = a == 0 ? spoke(b) : spoke(b) - spoke(a);
+      integers.shift(h, wanted - integers[h]);
+    }
+  }
+  for (const Index f : integers.faces())
+  {
+    EXPECT_EQ(integers.residual(f), FixedVec2{});
+    EXPECT_TRUE(integers.isSound(f));
+  }
+  EXPECT_FALSE(integers.isValid());
+  // The middle, and the vertices where the boundary went straight on.
+  EXPECT_EQ(integers.wrongWindings(), (std::vector<Index>{ 0, 2, 4, 6, 8 }));
+  EXPECT_EQ(brokenFaces(integers).size(), 8U);
 }
 
 TEST(IntegerMap, TrianglesOfAnotherMapCloseInAnyCharts)
