@@ -23,8 +23,6 @@ constexpr double kSoundQuad = 0.6;
 /// So many directions, and steps as shares of the mean length of their edges.
 constexpr int kSearchDirections = 8;
 constexpr std::array<double, 3> kSteps{ 0.4, 0.15, 0.05 };
-/// Of the shape; smaller ones are rounding.
-constexpr double kLeastGain = 1e-6;
 
 class QuadRelaxation
 {
@@ -136,7 +134,7 @@ private:
   void moveToBest(Index v)
   {
     const double edge = meanEdge(v);
-    double least = worstShapeAt(v) + kLeastGain;
+    double least = worstShapeAt(v) + kRoundingOfSingle;
     for (const double step : kSteps)
     {
       const Vector3 place = mesh_.points[v];
@@ -148,7 +146,7 @@ private:
         // Few are better, and the place below is found for these only.
         if (isWorstAtLeastWith(v, to, least) && tryMove(v, to, least))
         {
-          least = worstShapeAt(v) + kLeastGain;
+          least = worstShapeAt(v) + kRoundingOfSingle;
         }
       }
     }

@@ -28,8 +28,8 @@ IntegerStart findValidIntegers(
 /// where that does not succeed.
 IntegerStart repairValidIntegers(IntegerMap& map);
 
-/// The triangles that are not closed, or not sound, where the map is not valid; where all are, those round vertices that
-/// wind otherwise than in the seamless map.
+/// Where the map is not valid: the triangles that are not closed, or not sound; where all are, those round vertices
+/// that wind otherwise than in the seamless map.
 std::vector<Index> brokenFaces(const IntegerMap& map);
 
 /// Lowers the energy of a valid map until nothing helps, or half of the work that is left is done; it stays valid.
