@@ -5,6 +5,7 @@
 #include "Base/WorkCount.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace quadrille
 {
@@ -26,14 +27,10 @@ constexpr std::size_t kHeapChildren = 4;
 StripSearch::StripSearch(
   const IntegerMap& map, StripCost cost, const std::vector<double>* faceWeight)
   : map_(map), mesh_(map.mesh()), cost_(cost), faceWeight_(faceWeight),
-    reached_(4 * map.mesh().origin.size()), visitStamp_(map.mesh().alive.size(), 0)
+    visitStamp_(map.mesh().alive.size(), 0)
 {
-}
-
-void StripSearch::restart()
-{
-  ++round_;
-  heap_.clear();
+  onward_.reached.resize(4 * map.mesh().origin.size());
+  back_.reached.resize(onward_.reached.size());
 }
 
 void StripSearch::visit(Index f)
@@ -45,70 +42,70 @@ void StripSearch::visit(Index f)
   }
 }
 
-void StripSearch::push(Entry entry)
+void StripSearch::Front::push(Entry entry)
 {
-  std::size_t i = heap_.size();
-  heap_.push_back(entry);
+  std::size_t i = heap.size();
+  heap.push_back(entry);
   while (i > 0)
   {
     const std::size_t above = (i - 1) / kHeapChildren;
-    if (!entry.isBefore(heap_[above]))
+    if (!entry.isBefore(heap[above]))
     {
       break;
     }
-    heap_[i] = heap_[above];
+    heap[i] = heap[above];
     i = above;
   }
-  heap_[i] = entry;
+  heap[i] = entry;
 }
 
-StripSearch::Entry StripSearch::popFirst()
+StripSearch::Entry StripSearch::Front::popFirst()
 {
-  const Entry first = heap_.front();
-  const Entry last = heap_.back();
-  heap_.pop_back();
-  const std::size_t count = heap_.size();
+  const Entry first = heap.front();
+  const Entry last = heap.back();
+  heap.pop_back();
+  const std::size_t count = heap.size();
   std::size_t i = 0;
   for (std::size_t child = 1; child < count; child = kHeapChildren * i + 1)
   {
     std::size_t least = child;
     for (std::size_t other = child + 1; other < std::min(child + kHeapChildren, count); ++other)
     {
-      least = heap_[other].isBefore(heap_[least]) ? other : least;
+      least = heap[other].isBefore(heap[least]) ? other : least;
     }
-    if (!heap_[least].isBefore(last))
+    if (!heap[least].isBefore(last))
     {
       break;
     }
-    heap_[i] = heap_[least];
+    heap[i] = heap[least];
     i = least;
   }
   if (count > 0)
   {
-    heap_[i] = last;
+    heap[i] = last;
   }
   return first;
 }
 
-void StripSearch::relax(Index state, double cost, Index parent)
+void StripSearch::Front::relax(Index state, double cost, Index parent)
 {
-  Reached& reached = reached_[state];
-  if (reached.stamp / 2 == round_ && reached.distance <= cost)
+  Reached& there = reached[state];
+  if (there.stamp / 2 == round && there.distance <= cost)
   {
     return;
   }
-  reached = { cost, parent, 2 * round_ };
+  there = { cost, parent, 2 * round };
   push({ cost, state });
 }
 
-bool StripSearch::pop(Index& state, double& cost)
+bool StripSearch::pop(Front& front, Index& state, double& cost)
 {
-  while (!heap_.empty())
+  while (!front.heap.empty())
   {
-    const Entry first = popFirst();
+    const Entry first = front.popFirst();
     cost = first.cost;
     state = first.state;
-    std::uint32_t& stamp = reached_[state].stamp;
+    std::uint32_t& stamp = front.reached[state].stamp;
     if (stamp % 2 == 0)
     {
       if (++work_ % kCountedSteps == 0)
@@ -143,72 +140,102 @@ double StripSearch::edgeCost(Index out, FixedVec2 e) const
   return kStepCost + std::max(0.0, map_.energyChange(out, -e));
 }
 
-void StripSearch::explore(Index h, FixedVec2 e, double bound, End& closed, End& border)
+StripSearch::Exploration StripSearch::begin(Front& front, Index h, FixedVec2 e, double bound) const
 {
-  restart();
-  const Index last = mesh_.twin[h];
-  const FixedVec2 closing = last == kInvalidIndex ? e : rotate(e, mesh_.rotation[h]);
-  const Index start = stateOf(h, e);
-  relax(start, 0, kInvalidIndex);
+  front.restart();
+  Exploration way{ front, h, e, bound };
+  way.last = mesh_.twin[h];
+  way.closing = way.last == kInvalidIndex ? e : rotate(e, mesh_.rotation[h]);
+  way.start = stateOf(h, e);
+  front.relax(way.start, 0, kInvalidIndex);
+  return way;
+}
+
+void StripSearch::step(Exploration& way)
+{
   Index state = 0;
   double cost = 0;
-  // A repair has to reach far; what improves does so nearby, or costs more time than it is worth.
-  const std::size_t end = work_ + kMostSettled;
-  while (pop(state, cost) && (cost_ == StripCost::Repair || work_ < end))
+  // The first triangle may repay, so the bound may be negative.
+  way.isOver = !pop(way.front, state, cost) ||
+    (state != way.start && !(cost < std::min(way.bound, way.closed.cost)));
+  if (way.isOver)
   {
-    // The first triangle may repay, so the bound may be negative.
-    if (state != start && !(cost < std::min(bound, closed.cost)))
+    return;
+  }
+  // A repair has to reach far; what improves does so nearby, or costs more time than it is worth.
+  ++way.settled;
+  way.isCut = cost_ == StripCost::KeepSound && way.settled == kMostSettled;
+  way.isOver = way.isCut;
+  if (way.isCut)
+  {
+    return;
+  }
+  const Index in = state / 4;
+  const FixedVec2 carried = vectorOf(state);
+  visit(Mesh::face(in));
+  for (const Index out : { Mesh::next(in), Mesh::previous(in) })
+  {
+    if (!map_.mayShift(out, -carried))
     {
-      break;
+      continue;
     }
-    const Index in = state / 4;
-    const FixedVec2 carried = vectorOf(state);
-    visit(Mesh::face(in));
-    for (const Index out : { Mesh::next(in), Mesh::previous(in) })
+    const double crossed = cost + crossingCost(in, carried, out, state == way.start);
+    if (!(crossed < way.bound))
     {
-      if (!map_.mayShift(out, -carried))
+      continue;
+    }
+    if (out == way.last)
+    {
+      if (carried == way.closing && crossed < std::min(way.closed.cost, way.bound))
       {
-        continue;
+        way.closed = { crossed, state, kInvalidIndex, {} };
       }
-      const double crossed = cost + crossingCost(in, carried, out, state == start);
-      if (!(crossed < bound))
-      {
-        continue;
-      }
-      if (out == last)
-      {
-        if (carried == closing && crossed < std::min(closed.cost, bound))
-        {
-          closed = { crossed, state, kInvalidIndex, {} };
-        }
-        continue;
-      }
-      const double total = crossed + edgeCost(out, carried);
-      if (!(total < bound))
-      {
-        continue;
-      }
-      const Index next = mesh_.twin[out];
-      if (next != kInvalidIndex)
-      {
-        relax(stateOf(next, rotate(carried, mesh_.rotation[out])), total, state);
-      }
-      // Out where it came in, a strip would take back what it is for.
-      else if (total < border.cost && (out != h || carried != e))
-      {
-        border = { total, state, out, -carried };
-      }
+      continue;
+    }
+    const double total = crossed + edgeCost(out, carried);
+    if (!(total < way.bound))
+    {
+      continue;
+    }
+    const Index next = mesh_.twin[out];
+    if (next != kInvalidIndex)
+    {
+      way.front.relax(stateOf(next, rotate(carried, mesh_.rotation[out])), total, state);
+    }
+    // Out where it came in, a strip would take back what it is for.
+    else if (total < way.border.cost && (out != way.h || carried != way.e))
+    {
+      way.border = { total, state, out, -carried };
     }
   }
 }
 
-void StripSearch::appendPath(const End& end, std::vector<StripStep>& steps) const
+bool StripSearch::explore(Exploration& way, Exploration* other)
+{
+  while (!way.isOver)
+  {
+    step(way);
+    if (other != nullptr && !way.isOver)
+    {
+      step(*other);
+      if (other->isOver && !other->isCut && !other->hasFound())
+      {
+        return false;
+      }
+      other = other->isOver ? nullptr : other;
+    }
+  }
+  return way.hasFound();
+}
+
+void StripSearch::appendPath(
+  const Front& front, const End& end, std::vector<StripStep>& steps) const
 {
   if (end.exit != kInvalidIndex)
   {
     steps.push_back({ end.exit, end.exitVector });
   }
-  for (Index state = end.state; state != kInvalidIndex; state = reached_[state].parent)
+  for (Index state = end.state; state != kInvalidIndex; state = front.reached[state].parent)
   {
     steps.push_back({ state / 4, vectorOf(state) });
   }
@@ -220,11 +247,23 @@ Strip StripSearch::through(Index h, FixedVec2 e, double bound)
   ++searches_;
   visited_.clear();
   Strip strip;
-  End closed, border;
-  explore(h, e, bound, closed, border);
+  const Index g = mesh_.twin[h];
+  const auto backwards = [&](double below)
+  { return begin(back_, g, -rotate(e, mesh_.rotation[h]), below); };
+  Exploration way = begin(onward_, h, e, bound);
+  std::optional<Exploration> other;
+  if (cost_ == StripCost::KeepSound && g != kInvalidIndex)
+  {
+    other.emplace(backwards(bound));
+  }
+  if (!explore(way, other ? &*other : nullptr))
+  {
+    return strip;
+  }
+  const End &closed = way.closed, &border = way.border;
   if (closed.cost < bound)
   {
-    appendPath(closed, strip.steps);
+    appendPath(onward_, closed, strip.steps);
     strip.cost = closed.cost;
   }
   if (!(border.cost < std::min(bound, closed.cost)))
@@ -232,18 +271,16 @@ Strip StripSearch::through(Index h, FixedVec2 e, double bound)
     return strip;
   }
   std::vector<StripStep> steps;
-  appendPath(border, steps);
+  appendPath(onward_, border, steps);
   double cost = border.cost;
-  const Index g = mesh_.twin[h];
   if (g != kInvalidIndex)
   {
-    End otherClosed, otherBorder;
-    explore(g, -rotate(e, mesh_.rotation[h]), std::min(bound, closed.cost) - border.cost,
-      otherClosed, otherBorder);
-    cost += otherBorder.cost;
-    if (otherBorder.cost < kInfinity)
+    Exploration back = backwards(std::min(bound, closed.cost) - border.cost);
+    explore(back, nullptr);
+    cost += back.border.cost;
+    if (back.border.cost < kInfinity)
     {
-      appendPath(otherBorder, steps);
+      appendPath(back_, back.border, steps);
       steps.pop_back(); // the shift of h itself, which the first half has
     }
   }
@@ -259,7 +296,7 @@ Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>&
 {
   length_ = IntegerMap::lengthOf(e);
   ++searches_;
-  restart();
+  onward_.restart();
   End best;
   const auto leave = [&](Index out, FixedVec2 carried, double cost, Index from)
   {
@@ -271,7 +308,7 @@ Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>&
     const Index next = mesh_.twin[out];
     if (next != kInvalidIndex)
     {
-      relax(stateOf(next, rotate(carried, mesh_.rotation[out])), total, from);
+      onward_.relax(stateOf(next, rotate(carried, mesh_.rotation[out])), total, from);
     }
     else if (total < best.cost)
     {
@@ -284,7 +321,7 @@ Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>&
   }
   Index state = 0;
   double cost = 0;
-  while (pop(state, cost) && cost < best.cost)
+  while (pop(onward_, state, cost) && cost < best.cost)
   {
     const Index in = state / 4;
     const FixedVec2 carried = vectorOf(state);
@@ -300,7 +337,7 @@ Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>&
     }
   }
   Strip strip;
-  appendPath(best, strip.steps);
+  appendPath(onward_, best, strip.steps);
   strip.cost = best.cost;
   return strip;
 }

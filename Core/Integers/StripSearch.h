@@ -53,7 +53,8 @@ public:
 
   /// The cheapest strip that contains shift(h, e): a closed one, or one from boundary to boundary. The
   /// price of that first shift is left out; strips that cost `bound` or more are not found. With KeepSound the search
-  /// also ends after a bounded number of steps, and what it has found till then counts.
+  /// also ends after a bounded number of steps, and what it has found till then counts; and it looks both ways from h
+  /// in turn, as there is no strip where either has no way on.
   Strip through(Index h, FixedVec2 e, double bound);
 
   /// The cheapest strip that carries the vector e of the residual of face f to a face whose residual it
@@ -96,28 +97,59 @@ private:
     }
   };
 
-  void restart();
-  void push(Entry entry);
-  Entry popFirst();
+  /// The states that one search has reached, and those from which it goes on.
+  struct Front
+  {
+    std::vector<Reached> reached; ///< by state
+    std::uint32_t round = 0;
+    std::vector<Entry>
+      heap; ///< a heap of four children each: half as deep, and those lie side by side
+
+    void restart()
+    {
+      ++round;
+      heap.clear();
+    }
+    void push(Entry entry);
+    Entry popFirst();
+    void relax(Index state, double cost, Index parent);
+  };
+
+  /// Shortest ways on from shift(h, e): to where it closes, and to a boundary.
+  struct Exploration
+  {
+    Front& front;
+    Index h;
+    FixedVec2 e;
+    double bound;
+    Index last = kInvalidIndex; ///< over which it closes
+    FixedVec2 closing = {};
+    Index start = kInvalidIndex; ///< state
+    std::size_t settled = 0;
+    bool isOver = false; ///< nothing cheaper is left to be found
+    bool isCut = false;  ///< as it has taken too many steps
+    End closed = {}, border = {};
+
+    bool hasFound() const { return closed.cost < bound || border.cost < bound; }
+  };
+
   void visit(Index f);
   FixedVec2 vectorOf(Index state) const { return vectorOfState(state, length_); }
-  void relax(Index state, double cost, Index parent);
-  bool pop(Index& state, double& cost);
+  bool pop(Front& front, Index& state, double& cost);
   double crossingCost(Index in, FixedVec2 e, Index out, bool isFirst) const;
   double edgeCost(Index out, FixedVec2 e) const;
-  /// Shortest ways on from shift(h, e): to where it closes, and to a boundary.
-  void explore(Index h, FixedVec2 e, double bound, End& closed, End& border);
-  void appendPath(const End& end, std::vector<StripStep>& steps) const;
+  Exploration begin(Front& front, Index h, FixedVec2 e, double bound) const;
+  void step(Exploration& way);
+  /// To its end, or none where the other way has no way on.
+  bool explore(Exploration& way, Exploration* other);
+  void appendPath(const Front& front, const End& end, std::vector<StripStep>& steps) const;
 
   const IntegerMap& map_;
   const UvMesh& mesh_;
   StripCost cost_;
   const std::vector<double>* faceWeight_;
-  std::int64_t length_ = 1;      ///< of the vectors of the current search
-  std::vector<Reached> reached_; ///< by state
-  std::uint32_t round_ = 0;
-  std::vector<Entry>
-    heap_; ///< a heap of four children each: half as deep, and those lie side by side
+  std::int64_t length_ = 1; ///< of the vectors of the current search
+  Front onward_, back_;     ///< back_: only to improve
   std::vector<Index> visited_;
   std::vector<std::size_t> visitStamp_; ///< #F: the search that visited the face last
   std::size_t searches_ = 0;
