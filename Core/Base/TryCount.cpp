@@ -53,7 +53,7 @@ constexpr std::array<TryRow, kTries> kTryRows{ {
     "1" },
   { "field", "valences for sizes", "irregular vertices are moved so that sizes can be followed",
     "1" },
-  { "transfer", "wider patches", "four rings round a bad triangle in place of two", "1" },
+  { "transfer", "wider patches", "four, then eight rings round a bad triangle", "2" },
   { "transfer", "turned references", "a patch towards triangles turned along a path", "1" },
   { "extraction", "more corners", "a polygon of the boundary with more corners",
     "stops of the face" },
