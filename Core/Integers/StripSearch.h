@@ -140,7 +140,8 @@ private:
   double edgeCost(Index out, FixedVec2 e) const;
   Exploration begin(Front& front, Index h, FixedVec2 e, double bound) const;
   void step(Exploration& way);
-  /// To its end, or none where the other way has no way on.
+  /// Goes a way to its end, or until the other one, step by step beside it, has come to nothing; whether it has found
+  /// anything. other: may be null.
   bool explore(Exploration& way, Exploration* other);
   void appendPath(const Front& front, const End& end, std::vector<StripStep>& steps) const;
 
