@@ -12,8 +12,7 @@ namespace quadrille
 
 Index SheetBorders::inputAt(Index corner) const
 {
-  const Index point = result_.surface.inputPointAt(corner);
-  return point == kInvalidIndex ? kInvalidIndex : point;
+  return result_.surface.inputPointAt(corner);
 }
 
 void SheetBorders::findFineLoops()

@@ -165,9 +165,9 @@ void StripSearch::step(Exploration& way)
   // A repair has to reach far; what improves does so nearby, or costs more time than it is worth.
   ++way.settled;
   way.isCut = cost_ == StripCost::KeepSound && way.settled == kMostSettled;
-  way.isOver = way.isCut;
   if (way.isCut)
   {
+    way.isOver = true;
     return;
   }
   const Index in = state / 4;

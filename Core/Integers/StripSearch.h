@@ -150,7 +150,7 @@ private:
   StripCost cost_;
   const std::vector<double>* faceWeight_;
   std::int64_t length_ = 1; ///< of the vectors of the current search
-  Front onward_, back_;     ///< back_: only to improve
+  Front onward_, back_;     ///< on both sides of the half-edge that a strip is to contain
   std::vector<Index> visited_;
   std::vector<std::size_t> visitStamp_; ///< #F: the search that visited the face last
   std::size_t searches_ = 0;
