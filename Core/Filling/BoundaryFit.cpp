@@ -314,9 +314,13 @@ private:
   }
 
   /// Whether the two sides of a strip may become one: no two anchors, no two points of the boundary over the inside,
-  /// none that have a neighbour in common; and three quads are left round each point inside.
+  /// none that have a neighbour in common; three quads are left round each point inside, and some quads at all.
   bool mayGo(const QuadPath& chord, const QuadTopology& topology, const Grouped<>& quadsAt) const
   {
+    if (chord.size() == mesh_.quads.size())
+    {
+      return false;
+    }
     std::vector<Index> seen;
     for (std::size_t i = 0; i <= chord.size(); ++i)
     {

@@ -160,6 +160,19 @@ TEST(BoundaryFit, LoopsWithoutCorners)
   EXPECT_TRUE(fit(c, ring(30)));
 }
 
+TEST(BoundaryFit, TheLastQuadStays)
+{
+  // Between two of its corners it has an edge too many on one side, and lacks one on the other.
+  PinLoop loop;
+  loop.add({ 0, 0 }, true);
+  loop.add({ 2, 0 }, false);
+  loop.add({ 2, 2 }, true);
+  loop.add({ 1, 2 }, true);
+  loop.add({ 0, 2 }, false);
+  loop.add({ 0, 1 }, true);
+  EXPECT_FALSE(fit(planeCase({ loop }), rectangleGrid(1, 1, 2, 2)));
+}
+
 TEST(BoundaryFit, NoneOfAnotherFace)
 {
   // A hole more.
