@@ -284,15 +284,17 @@ private:
       const auto near = static_cast<Index>(pointOf.size()), far = near + 1;
       pointOf.push_back(addPoint(placeOf(from + (to - from) / 3)));
       pointOf.push_back(addPoint(placeOf(to + (from - to) / 3)));
-      partBeside(ends.first, near, far, ends.second, quads);
-      partBeside(ends.second, far, near, ends.first, quads);
+      partBeside({ ends.first, near, far, ends.second }, pointOf, quads);
+      partBeside({ ends.second, far, near, ends.first }, pointOf, quads);
     }
   }
 
-  /// The quad with an edge from a to b gets a, m, n, b in its place, and becomes two.
-  static void partBeside(
-    Index a, Index m, Index n, Index b, std::vector<std::array<Index, 4>>& quads)
+  /// The quad with an edge between the ends of `way` gets the whole way in its place, and becomes two. Where a curve
+  /// ends in it two of its corners are one point: these are parted.
+  static void partBeside(const std::array<Index, 4>& way, const std::vector<Index>& pointOf,
+    std::vector<std::array<Index, 4>>& quads)
   {
+    const auto [a, m, n, b] = way;
     for (std::array<Index, 4>& quad : quads)
     {
       for (std::size_t i = 0; i < 4; ++i)
@@ -300,8 +302,10 @@ private:
         if (quad[i] == a && quad[(i + 1) % 4] == b)
         {
           const Index c = quad[(i + 2) % 4], d = quad[(i + 3) % 4];
-          quad = { a, m, c, d };
-          quads.push_back({ m, n, b, c });
+          const bool isEnd = pointOf[a] == pointOf[c];
+          quad = isEnd ? std::array<Index, 4>{ a, m, n, d } : std::array<Index, 4>{ a, m, c, d };
+          quads.push_back(
+            isEnd ? std::array<Index, 4>{ n, b, c, d } : std::array<Index, 4>{ m, n, b, c });
           return;
         }
       }

@@ -48,6 +48,19 @@ bool contradictsItself(const MapAttempt& map)
     map.failedFaces.empty();
 }
 
+bool hasFailedForMap(const History& history)
+{
+  return !history.hasResult() && !isTooLarge(history.last()) &&
+    !contradictsItself(*history.last().map);
+}
+
+/// No part of its boundary has to fit others, which quads without a map do not care for.
+bool mayBeFilled(const PreparedSurface& surface, const RemeshOptions& options)
+{
+  const bool hasToFit = !surface.seams.empty() || !surface.straight.empty();
+  return !hasToFit && !options.preview && options.method == MapMethod::ScaleAware;
+}
+
 std::vector<Index> faceLabels(const Mesh& mesh)
 {
   Mesh opened = mesh;
@@ -189,13 +202,43 @@ void spreadStrip(const Mesh& mesh, QuadMesh& quads, const InsertedStrip& strip)
   }
 }
 
+/// A face that is closed, without a curve on it, is filled from a slit on: its longest edge. Returns one side of each.
+std::vector<Index> addSlits(Mesh& mesh)
+{
+  const std::vector<Index> labels = faceLabels(mesh);
+  std::map<Index, Index> longest; // half-edge, by label; none where there are curves
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    Index& best = longest.emplace(labels[Mesh::face(h)], h).first->second;
+    if (mesh.isBoundary(h) || mesh.isFeature(h))
+    {
+      best = kInvalidIndex;
+    }
+    else if (best != kInvalidIndex && mesh.edgeVector(h).norm() > mesh.edgeVector(best).norm())
+    {
+      best = h;
+    }
+  }
+  std::vector<Index> slits;
+  for (const auto& [label, h] : longest)
+  {
+    if (h != kInvalidIndex)
+    {
+      mesh.flags.edit()[h] |= kFeatureEdge;
+      mesh.flags.edit()[mesh.twin[h]] |= kFeatureEdge;
+      slits.push_back(h);
+    }
+  }
+  return slits;
+}
+
 /// Fills faces beside quads.
 class FillingBeside
 {
 public:
   FillingBeside(const CutFaces& cut, const Mesh* restMesh, QuadMesh* restQuads, double edgeLength)
-    : cut_(cut), restMesh_(restMesh), restQuads_(restQuads), edgeLength_(edgeLength),
-      curves_(cut.faces.mesh, cut.isShared, edgeLength)
+    : cut_(cut), mesh_(cut.faces.mesh), slits_(addSlits(mesh_)), restMesh_(restMesh),
+      restQuads_(restQuads), edgeLength_(edgeLength), curves_(mesh_, cut.isShared, edgeLength)
   {
     if (restMesh_ != nullptr)
     {
@@ -235,8 +278,14 @@ public:
       }
       return made;
     }
-    FilledFaces filled = fillFaces(cut_.faces.mesh, curves_, edgeLength_, quadsOf);
+    FilledFaces filled = fillFaces(mesh_, curves_, edgeLength_, quadsOf);
     made.quads = std::move(filled.quads);
+    eraseIf(made.quads.lines,
+      [&](const QuadLine& line)
+      {
+        return contains(slits_, line.halfEdge) ||
+          (!mesh_.isBoundary(line.halfEdge) && contains(slits_, mesh_.twin[line.halfEdge]));
+      });
     made.failedAt = std::move(filled.failedAt);
     made.points = std::move(points_);
     made.same = std::move(same_);
@@ -429,6 +478,8 @@ private:
   }
 
   const CutFaces& cut_;
+  Mesh mesh_; ///< of the faces that are cut, with slits
+  std::vector<Index> slits_;
   const Mesh* restMesh_;
   QuadMesh* restQuads_;
   double edgeLength_;
@@ -445,8 +496,7 @@ private:
 
 bool mayCutFaces(const PreparedSurface& surface, const RemeshOptions& options)
 {
-  const bool hasToFit = !surface.seams.empty() || !surface.straight.empty();
-  if (hasToFit || options.preview || options.method != MapMethod::ScaleAware)
+  if (!mayBeFilled(surface, options))
   {
     return false;
   }
@@ -465,8 +515,13 @@ bool keepsFeatures(const PreparedSurface& surface)
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history)
 {
-  return !history.hasResult() && !isTooLarge(history.last()) &&
-    !contradictsItself(*history.last().map) && mayCutFaces(surface, options);
+  return hasFailedForMap(history) && mayCutFaces(surface, options);
+}
+
+bool isFilled(const PreparedSurface& surface, const RemeshOptions& options, const History& history)
+{
+  return isCutAtFaces(surface, options, history) ||
+    (hasFailedForMap(history) && keepsFeatures(surface) && mayBeFilled(surface, options));
 }
 
 FailedFaces facesAt(const std::vector<Vector3>& places, const Mesh& mesh)

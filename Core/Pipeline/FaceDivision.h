@@ -40,6 +40,8 @@ bool keepsFeatures(const PreparedSurface& surface);
 /// Whether attempts on such a surface have no quads yet, and not as what was asked for contradicts itself.
 bool isCutAtFaces(
   const PreparedSurface& surface, const RemeshOptions& options, const History& history);
+/// Whether it is filled: cut at faces, or as a whole where the features of a designed body leave it in one piece.
+bool isFilled(const PreparedSurface& surface, const RemeshOptions& options, const History& history);
 /// The faces that the places lie in, as SurfaceRequests::withoutMap.
 FailedFaces facesAt(const std::vector<Vector3>& places, const Mesh& mesh);
 /// #F: whether a triangle belongs to one of the faces.

@@ -435,7 +435,9 @@ void remeshSettled(Settled& settled, SizedSurface& sized, const Asked& asked, Re
   RunContext& run = *settled.run;
   run.levels.letGo();
   const bool isInParts = isDivided(sized, history);
-  const bool failed = isInParts || isCutAtFaces(*sized.surface, options, history);
+  // A face by itself is tried once: without a map it is filled as what it is cut from asks.
+  const bool failed =
+    isInParts || (!sized.isTriedOnce && isFilled(*sized.surface, options, history));
   if (failed)
   {
     history.packMaps(sized.surface->mesh);

@@ -179,6 +179,54 @@ TEST(FaceCurves, ThreeEdgesGoRoundASlit)
   EXPECT_FALSE(filled.quads.quads.empty());
 }
 
+/// At the tip of a slender cone a curve ends, with a single quad round it: the points on both sides of the curve are
+/// corners of this quad, and one point.
+TEST(FilledFaces, QuadsRoundTheEndOfACurveHaveFourPoints)
+{
+  constexpr Index around = 12, rings = 12;
+  std::vector<Vector3> points{ { 0, 0, rings } };
+  std::vector<std::array<Index, 3>> triangles;
+  for (Index ring = 1; ring <= rings; ++ring)
+  {
+    for (Index i = 0; i < around; ++i)
+    {
+      const double angle = 2 * kPi * i / around, radius = 0.12 * ring;
+      points.emplace_back(
+        radius * std::cos(angle), radius * std::sin(angle), double{ rings } - ring);
+      const Index a = 1 + (ring - 1) * around + i, b = 1 + (ring - 1) * around + (i + 1) % around;
+      const Index above = a - around, beside = b - around;
+      triangles.push_back({ ring == 1 ? 0 : above, a, b });
+      if (ring > 1)
+      {
+        triangles.push_back({ above, b, beside });
+      }
+    }
+  }
+  const Mesh cone = test::makeMesh(points, triangles);
+  for (Index length = 2; length < rings; ++length)
+  {
+    for (const double edgeLength : { 1.0, 1.5 })
+    {
+      Mesh mesh = cone;
+      const auto isOnLine = [&](Index v)
+      { return v == 0 || (v % around == 1 && v < 1 + length * around); };
+      for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+      {
+        if (!mesh.isBoundary(h) && isOnLine(mesh.origin[h]) && isOnLine(mesh.target(h)))
+        {
+          mesh.flags.edit()[h] |= kFeatureEdge;
+        }
+      }
+      FaceCurves curves(mesh, none(mesh), edgeLength);
+      ASSERT_TRUE(curves.chooseNumbers().empty());
+      const FilledFaces filled = fillFaces(mesh, curves, edgeLength);
+      ASSERT_TRUE(filled.failedAt.empty());
+      const QuadTopology topology = analyzeQuads(filled.quads.quads, filled.quads.points.size());
+      EXPECT_TRUE(topology.manifold()) << length << ", " << edgeLength << ": " << topology.text();
+    }
+  }
+}
+
 /// Two plates that lie on each other, each with a curve between points of its boundary.
 TEST(FaceCurves, CurvesEndAtPointsOfTheirOwnLoop)
 {
