@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/QuadPlaces.h"
 
-#include "Base/Lists.h"
 #include "Quads/QuadProjection.h"
 
 #include <algorithm>
@@ -13,19 +12,14 @@ namespace quadrille
 namespace
 {
 
-TriangleList edgesOf(const QuadMesh& mesh)
+TriangleList linesOf(const QuadMesh& mesh)
 {
   TriangleList list;
   list.points = mesh.points;
-  for (const std::array<Index, 4>& quad : mesh.quads)
+  for (const QuadLine& line : mesh.lines)
   {
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      const auto [a, b] = std::minmax(quad[i], quad[(i + 1) % 4]);
-      list.corners.push_back({ a, b, b });
-    }
+    list.corners.push_back({ line.a, line.b, line.b });
   }
-  sortUnique(list.corners);
   return list;
 }
 
@@ -142,11 +136,11 @@ std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
 }
 
 //------------------------------------------------------------------------------
-NearestEdges::NearestEdges(const QuadMesh& mesh) : edges_(edgesOf(mesh)) {}
+NearestLines::NearestLines(const QuadMesh& mesh) : lines_(linesOf(mesh)) {}
 
-std::optional<double> NearestEdges::distance(const Vector3& p) const
+std::optional<double> NearestLines::distance(const Vector3& p) const
 {
-  const auto nearest = edges_.at(p);
+  const auto nearest = lines_.at(p);
   return nearest ? std::optional<double>(nearest->distance) : std::nullopt;
 }
 

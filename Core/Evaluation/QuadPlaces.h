@@ -92,16 +92,16 @@ private:
   std::vector<Vector3> pointNormals_;   ///< #points, unit; zero where the quads have no area
 };
 
-/// The edge of the quads nearest to a place.
-class NearestEdges
+/// The edge of the quads on a feature or boundary that is nearest to a place.
+class NearestLines
 {
 public:
-  explicit NearestEdges(const QuadMesh& mesh);
-  /// In units of the points; none where there are no edges.
+  explicit NearestLines(const QuadMesh& mesh);
+  /// In units of the points; none where there are no such edges.
   std::optional<double> distance(const Vector3& p) const;
 
 private:
-  NearestTriangle edges_;
+  NearestTriangle lines_;
 };
 
 } // namespace quadrille
