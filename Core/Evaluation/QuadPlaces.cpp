@@ -135,6 +135,18 @@ std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
   return place;
 }
 
+std::size_t NearestQuads::bytes() const
+{
+  return halves_.bytes() + edgeLengthRound_.size() * sizeof(double) +
+    pointNormals_.size() * sizeof(Vector3);
+}
+
+Vector3 NearestQuads::normalAt(const Vector3& p) const
+{
+  const std::optional<Place> there = at(p);
+  return there ? there->normal : Vector3(Vector3::Zero());
+}
+
 //------------------------------------------------------------------------------
 NearestLines::NearestLines(const QuadMesh& mesh) : lines_(linesOf(mesh)) {}
 
