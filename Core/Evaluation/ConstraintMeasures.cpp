@@ -265,9 +265,15 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
   {
     return word;
   }
-  if (!edges_)
+  if (mesh_.lines.empty())
   {
-    edges_.emplace(mesh_);
+    word.deviation = kInfinity;
+    word.reason = "the quads have no features and no boundary";
+    return word;
+  }
+  if (!nearestLines_)
+  {
+    nearestLines_.emplace(mesh_);
   }
   double length = 0;
   for (const auto& [a, b] : curve)
@@ -288,7 +294,7 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
       const Vector3 p = a + (b - a) * (parts > 0 ? static_cast<double>(i) / parts : 0);
       // Not of the nearest edge alone, which may be a short one between long ones.
       const double edgeLength = edgeLengthAt(p);
-      const double distance = edgeLength > 0 ? *edges_->distance(p) / edgeLength : -1;
+      const double distance = edgeLength > 0 ? *nearestLines_->distance(p) / edgeLength : -1;
       if (distance > farthest)
       {
         farthest = distance;
@@ -304,7 +310,7 @@ ConstraintMeasure ConstraintMeasures::curve(const std::vector<std::array<Vector3
   word.deviation = farthest;
   word.isMet = word.deviation <= kMetDistance;
   word.reason = word.isMet ? ""
-                           : "the quads' edges are up to " + shortText(word.deviation) +
+                           : "the features of the quads are up to " + shortText(word.deviation) +
       " edge lengths away from it, at most " + shortText(kMetDistance) + " count as met";
   return word;
 }

@@ -98,7 +98,8 @@ public:
   /// at. irregularShare, where given, gets the share of the area in quads at irregular vertices.
   ConstraintMeasure guide(const std::vector<GuidedPlace>& measured, std::size_t mostPlaces,
     double* irregularShare = nullptr);
-  /// "edge lengths": the largest distance from the quads' edges, over the length of these. curve: not empty.
+  /// "edge lengths": the largest distance from the quads' edges on features and boundaries, over the length of the
+  /// edges there; infinite where there are none. Some of all edges pass near any line. curve: not empty.
   ConstraintMeasure curve(const std::vector<std::array<Vector3, 2>>& curve);
   ConstraintMeasure curve(const std::vector<Vector3>& path);
   /// "edge lengths": from the place to the nearest feature of the quads, 0.3 at least; infinite where they have none.
@@ -155,7 +156,7 @@ private:
   const QuadMesh& mesh_;
   std::optional<ReachedValences> valences_; ///< these are made when they are needed first
   std::optional<NearestQuads> quads_;
-  std::optional<NearestEdges> edges_;
+  std::optional<NearestLines> nearestLines_;
   std::optional<LinesInQuads> lines_;
 };
 

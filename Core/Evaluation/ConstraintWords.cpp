@@ -212,7 +212,11 @@ ConstraintWord Judge::measured(std::size_t i)
   switch (constraint.kind)
   {
     case ConstraintKind::Stroke:
-      return guide(kind, constraint.source, constraint.guided, i);
+    {
+      ConstraintWord word = guide(kind, constraint.source, constraint.guided, i);
+      word.remark = withRemark(word.remark, constraint.remark);
+      return word;
+    }
     case ConstraintKind::Valence:
       return valenceAt(constraint.source, place, constraint.valence);
     case ConstraintKind::Size:
@@ -223,7 +227,12 @@ ConstraintWord Judge::measured(std::size_t i)
     case ConstraintKind::Move:
       return worded(kind, constraint.source, measures_.move(constraint));
     case ConstraintKind::Feature:
-      return worded(kind, constraint.source, measures_.curve(constraint.path));
+    {
+      ConstraintWord word = worded(kind, constraint.source, measures_.curve(constraint.path));
+      word.isMet = word.isMet && constraint.remark.empty(); // it is not there all along
+      word.reason = withRemark(word.reason, constraint.remark);
+      return word;
+    }
     default: // connections and cycles
       return worded(kind, constraint.source, measures_.line(constraint, asked_.curves));
   }

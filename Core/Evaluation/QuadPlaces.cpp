@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/QuadPlaces.h"
 
-#include "Base/Lists.h"
 #include "Quads/QuadProjection.h"
 
 #include <algorithm>
@@ -13,19 +12,14 @@ namespace quadrille
 namespace
 {
 
-TriangleList edgesOf(const QuadMesh& mesh)
+TriangleList linesOf(const QuadMesh& mesh)
 {
   TriangleList list;
   list.points = mesh.points;
-  for (const std::array<Index, 4>& quad : mesh.quads)
+  for (const QuadLine& line : mesh.lines)
   {
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      const auto [a, b] = std::minmax(quad[i], quad[(i + 1) % 4]);
-      list.corners.push_back({ a, b, b });
-    }
+    list.corners.push_back({ line.a, line.b, line.b });
   }
-  sortUnique(list.corners);
   return list;
 }
 
@@ -141,12 +135,24 @@ std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
   return place;
 }
 
-//------------------------------------------------------------------------------
-NearestEdges::NearestEdges(const QuadMesh& mesh) : edges_(edgesOf(mesh)) {}
-
-std::optional<double> NearestEdges::distance(const Vector3& p) const
+std::size_t NearestQuads::bytes() const
 {
-  const auto nearest = edges_.at(p);
+  return halves_.bytes() + edgeLengthRound_.size() * sizeof(double) +
+    pointNormals_.size() * sizeof(Vector3);
+}
+
+Vector3 NearestQuads::normalAt(const Vector3& p) const
+{
+  const std::optional<Place> there = at(p);
+  return there ? there->normal : Vector3(Vector3::Zero());
+}
+
+//------------------------------------------------------------------------------
+NearestLines::NearestLines(const QuadMesh& mesh) : lines_(linesOf(mesh)) {}
+
+std::optional<double> NearestLines::distance(const Vector3& p) const
+{
+  const auto nearest = lines_.at(p);
   return nearest ? std::optional<double>(nearest->distance) : std::nullopt;
 }
 

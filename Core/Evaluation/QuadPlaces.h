@@ -8,6 +8,7 @@
 #include "Mesh/NearestTriangle.h"
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <vector>
@@ -15,7 +16,18 @@
 namespace quadrille
 {
 
-/// The side of a thin wall that a place is on: what lies on the other side can be nearer in space than what is meant.
+/// Cosine of the angle between normals on the sides of a thin wall, 120 degrees. Points of a wall's rim have normals a
+/// right angle from either side at most, those of its other rim and corners more than 125 degrees.
+constexpr double kOtherSide = -0.5;
+
+/// Of places with these normals, unit: what lies on the other side of a thin wall can be nearer in space than what is
+/// meant. Zero is on all sides.
+inline bool areOnOneSide(const Vector3& a, const Vector3& b)
+{
+  return a.dot(b) > kOtherSide;
+}
+
+/// The side of a thin wall that a place is on.
 class QuadSide
 {
 public:
@@ -24,13 +36,9 @@ public:
     : normal_(normal), pointNormals_(pointNormals)
   {
   }
-  bool has(Index point) const { return normal_.dot(pointNormals_[point]) > kOtherSide; }
+  bool has(Index point) const { return areOnOneSide(normal_, pointNormals_[point]); }
 
 private:
-  /// Cosine of the angle between normals, 120 degrees. Points of a wall's rim have normals a right angle from either
-  /// side at most, those of its other rim and corners more than 125 degrees.
-  static constexpr double kOtherSide = -0.5;
-
   Vector3 normal_;
   const std::vector<Vector3>& pointNormals_;
 };
@@ -84,6 +92,13 @@ public:
   explicit NearestQuads(const QuadMesh& mesh);
   std::optional<Place> at(const Vector3& p) const;
   QuadSide sideOf(const Place& place) const { return { place.normal, pointNormals_ }; }
+  /// Of the quad nearest to a place, see Place; zero where there are no quads.
+  Vector3 normalAt(const Vector3& p) const;
+  QuadSide sideAt(const Vector3& p) const { return { normalAt(p), pointNormals_ }; }
+  /// Unit; zero where the quads have no area.
+  const Vector3& pointNormal(Index point) const { return pointNormals_[point]; }
+  /// Without the mesh.
+  std::size_t bytes() const;
 
 private:
   const QuadMesh& mesh_;
@@ -92,16 +107,16 @@ private:
   std::vector<Vector3> pointNormals_;   ///< #points, unit; zero where the quads have no area
 };
 
-/// The edge of the quads nearest to a place.
-class NearestEdges
+/// The edge of the quads on a feature or boundary that is nearest to a place.
+class NearestLines
 {
 public:
-  explicit NearestEdges(const QuadMesh& mesh);
-  /// In units of the points; none where there are no edges.
+  explicit NearestLines(const QuadMesh& mesh);
+  /// In units of the points; none where there are no such edges.
   std::optional<double> distance(const Vector3& p) const;
 
 private:
-  NearestTriangle edges_;
+  NearestTriangle lines_;
 };
 
 } // namespace quadrille

@@ -66,16 +66,11 @@ struct End
   Vector3 place = Vector3::Zero(); ///< in the quads
 };
 
-QuadSide sideAt(const NearestQuads& nearest, const Vector3& place)
-{
-  return nearest.sideOf(nearest.at(place).value_or(NearestQuads::Place{}));
-}
-
 /// The nearest in reach on the same side of a thin wall. nearest: of the quads.
 std::optional<End> endAt(
   const QuadMesh& quads, const NearestQuads& nearest, double edgeLength, const Vector3& place)
 {
-  const QuadSide side = sideAt(nearest, place);
+  const QuadSide side = nearest.sideAt(place);
   std::optional<End> end;
   double least = kReachOfEnds * edgeLength;
   for (const Index p : irregularInside(quads))
@@ -121,7 +116,7 @@ const ValencePlace* nearestTo(const End& end, const std::vector<ValencePlace>& v
   const NearestQuads& nearest, double within)
 {
   return nearestOf(valences, end.valence, end.place, within,
-    [&](const ValencePlace& asked) { return sideAt(nearest, asked.place).has(end.point); });
+    [&](const ValencePlace& asked) { return nearest.sideAt(asked.place).has(end.point); });
 }
 
 /// The end of a connection that joins an irregular vertex of the quads. Where a valence is asked for there, that is the

@@ -13,6 +13,7 @@
 #include "Prepare/Refine.h"
 #include "Requests/DrawnLines.h"
 #include "Requests/InsertPlaces.h"
+#include "Requests/MeshPlaces.h"
 
 #include <algorithm>
 #include <array>
@@ -193,10 +194,16 @@ void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& d
   noteAdded(surface, before, threads, notices);
 }
 
-std::vector<ValencePlace> withEnds(
-  std::vector<ValencePlace> valences, const std::vector<CurveRequest>& curves, double edgeLength)
+std::vector<ValencePlace> withEnds(const PreparedSurface& surface,
+  std::vector<ValencePlace> valences, double edgeLength, int threads)
 {
-  for (const CurveRequest& curve : curves)
+  const Mesh& mesh = surface.mesh;
+  const auto normalAt = [&](const Vector3& place)
+  {
+    const MeshPlace there = placesOnMesh(mesh, { place }, threads).front();
+    return Vector3(mesh.doubleAreaNormal(there.face).stableNormalized());
+  };
+  for (const CurveRequest& curve : surface.curves)
   {
     for (std::size_t i = 0; curve.ends && i < 2; ++i)
     {
@@ -205,9 +212,11 @@ std::vector<ValencePlace> withEnds(
       if (valence != 0)
       {
         eraseIf(valences,
-          [&](const ValencePlace& asked) {
+          [&](const ValencePlace& asked)
+          {
             return asked.valence == valence &&
-              (asked.place - place).norm() <= kMetDistance * edgeLength;
+              (asked.place - place).norm() <= kMetDistance * edgeLength &&
+              areOnOneSide(normalAt(asked.place), normalAt(place));
           });
         valences.push_back({ place, valence });
       }

@@ -32,9 +32,10 @@ constexpr double kReachOfCurve = 1.5;
 void drawFeatures(PreparedSurface& surface, const std::vector<FeatureRequest>& drawn,
   double edgeLength, int threads, std::vector<std::string>& notices);
 
-/// Valences that are asked for, and those at the ends of connections; of the same valence at the same place one.
-std::vector<ValencePlace> withEnds(
-  std::vector<ValencePlace> valences, const std::vector<CurveRequest>& curves, double edgeLength);
+/// Valences that are asked for on the surface, and those at the ends of its connections; of the same valence at one
+/// place, on the same side of a thin wall, one.
+std::vector<ValencePlace> withEnds(const PreparedSurface& surface,
+  std::vector<ValencePlace> valences, double edgeLength, int threads);
 
 /// Of the places with this valence the nearest one to p, at most so far away; null: none. counts: which of them do;
 /// empty: all.

@@ -304,8 +304,9 @@ void addFeatures(const DrawnRequests& drawn, const RemeshOptions& options, Prepa
 void addValences(const std::vector<ValencePlace>& valences, const RemeshOptions& options,
   PreparedSurface& surface, SizedSurface& sized)
 {
-  if (drawValences(surface, withEnds(valences, surface.curves, sized.edgeLength), sized.edgeLength,
-        options.threads, sized.notices))
+  const int threads = options.threads;
+  if (drawValences(surface, withEnds(surface, valences, sized.edgeLength, threads),
+        sized.edgeLength, threads, sized.notices))
   {
     sized.key = KeyMaker(sized.key).add(surface.hash).key();
   }

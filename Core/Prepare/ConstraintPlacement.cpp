@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Prepare/ConstraintPlacement.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "Requests/CurveRequests.h"
@@ -65,7 +66,7 @@ int arrayValenceAt(const SurfaceInput& input, const SurfacePlaces::Place& place,
 
 //------------------------------------------------------------------------------
 std::vector<Vector3> ConstraintPlacement::follow(
-  const char* what, const DrawnLine& line, PlacedConstraint& placed) const
+  const DrawnLine& line, PlacedConstraint& placed, std::vector<std::vector<Vector3>>* course) const
 {
   placed.source = line.source;
   placed.given = line.points;
@@ -79,36 +80,48 @@ std::vector<Vector3> ConstraintPlacement::follow(
       points.push_back(place);
     }
   }
+  placed.path = { points.empty() ? Vector3::Zero() : points.front() };
   if (points.size() < 2)
   {
-    placed.path = points;
+    placed.whyNot = "it has no length: all its points have the same nearest place on the surface";
     return points;
   }
-  MeshCourse path = paths_.through(points);
-  if (path.tornBehind)
+  MeshCourse found = paths_.through(points);
+  if (!found.tornBehind.empty())
   {
-    refuse(what, " ", line.source, ": no way on the surface leads from ",
-      placeText(points[*path.tornBehind]), " to ", placeText(points[*path.tornBehind + 1]),
-      "; the places lie on different parts of it: draw one line for each part");
+    const std::size_t last = found.tornBehind.front();
+    placed.remark = "it is not followed from " + placeText(points[last]) + " to " +
+      placeText(points[last + 1]) + ", which lie on different parts of the surface";
   }
-  placed.path = std::move(path.points);
+  if (course != nullptr)
+  {
+    *course = found.parts();
+  }
+  placed.path = std::move(found.points);
   return points;
+}
+
+bool ConstraintPlacement::take(PlacedConstraint line)
+{
+  const bool isFollowed = line.whyNot.empty();
+  if (!isFollowed)
+  {
+    result_.notices.push_back(std::string(nameOf(line.kind)) + " " + std::to_string(line.source) +
+      " is not followed: " + line.whyNot);
+  }
+  result_.placed.push_back(std::move(line));
+  return isFollowed;
 }
 
 void ConstraintPlacement::addFeature(const DrawnLine& line)
 {
   PlacedConstraint placed;
   placed.kind = ConstraintKind::Feature;
-  std::vector<Vector3> points = follow("feature curve", line, placed);
-  if (points.size() < 2)
+  std::vector<Vector3> points = follow(line, placed);
+  if (take(std::move(placed)))
   {
-    drop("feature curve", std::move(placed),
-      "has no length and is not followed: all its points have the same nearest place on the "
-      "surface");
-    return;
+    requests_.features.push_back({ std::move(points) });
   }
-  requests_.features.push_back({ std::move(points) });
-  result_.placed.push_back(std::move(placed));
 }
 
 void ConstraintPlacement::addStroke(const DrawnLine& line, double weight, double radius, int order)
@@ -117,16 +130,16 @@ void ConstraintPlacement::addStroke(const DrawnLine& line, double weight, double
   placed.kind = ConstraintKind::Stroke;
   placed.weight = weight;
   placed.radius = radius;
-  std::vector<Vector3> points = follow("guiding stroke", line, placed);
-  if (points.size() < 2)
+  std::vector<std::vector<Vector3>> course;
+  std::vector<Vector3> points = follow(line, placed, &course);
+  for (const std::vector<Vector3>& part : course)
   {
-    drop("guiding stroke", std::move(placed),
-      "has no length and is not followed: give it two different points");
-    return;
+    append(placed.guided, guidedAlong(input_, places_, part, weight, radius));
   }
-  placed.guided = guidedAlong(input_, places_, placed.path, weight, radius);
-  requests_.strokes.push_back({ std::move(points), weight, radius, order });
-  result_.placed.push_back(std::move(placed));
+  if (take(std::move(placed)))
+  {
+    requests_.strokes.push_back({ std::move(points), weight, radius, order });
+  }
 }
 
 void ConstraintPlacement::addValence(std::int64_t source, const Vector3& point, int valence)
@@ -195,14 +208,6 @@ void ConstraintPlacement::leaveOutValence(
   placed.whyNot = whyNot;
   result_.notices.push_back("valence point " + std::to_string(source) + " is left out: " + whyNot);
   result_.placed.push_back(std::move(placed));
-}
-
-void ConstraintPlacement::drop(const char* what, PlacedConstraint line, const std::string& whyNot)
-{
-  result_.notices.push_back(std::string(what) + " " + std::to_string(line.source) + " " + whyNot);
-  line.whyNot = whyNot;
-  line.path.resize(1, Vector3::Zero());
-  result_.placed.push_back(std::move(line));
 }
 
 void ConstraintPlacement::addCurve(std::int64_t source, CurveKind kind, std::vector<Vector3> points)

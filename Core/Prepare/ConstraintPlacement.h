@@ -35,8 +35,8 @@ public:
   }
 
   /// Every point goes to the nearest place on the surface, and between two of them the line runs straight over the
-  /// faces. Throws InvalidInput, with the places, where two of them lie on different parts of the surface; then nothing
-  /// has changed.
+  /// faces. Between two on different parts of the surface it is not followed, and neither is a line without length: the
+  /// result tells so.
   void addFeature(const DrawnLine& line);
   /// The same, and the faces below get the line's direction, and those that are joined to them within the radius, in
   /// units of the input. Where strokes overlap see StrokeRequest::order.
@@ -65,11 +65,13 @@ public:
   void addTo(SurfaceInput& input) const;
 
 private:
-  /// Fills given, path and distance. Returns the points of the line on the surface, those that follow at the same place
+  /// Fills given, path, distance and remark, or whyNot with the place as its path; course, where given, gets its course
+  /// on each part of the surface. Returns the points of the line on the surface, those that follow at the same place
   /// once.
-  std::vector<Vector3> follow(
-    const char* what, const DrawnLine& line, PlacedConstraint& placed) const;
-  void drop(const char* what, PlacedConstraint line, const std::string& whyNot);
+  std::vector<Vector3> follow(const DrawnLine& line, PlacedConstraint& placed,
+    std::vector<std::vector<Vector3>>* course = nullptr) const;
+  /// Whether the line is followed; if not it is told.
+  bool take(PlacedConstraint line);
 
   const SurfaceInput& input_;
   const SurfacePlaces& places_;

@@ -57,6 +57,7 @@ struct PlacedConstraint
     guided;              ///< of strokes: some of the places where they ask for a direction
   std::size_t curve = 0; ///< of connections and cycles: its place in SurfaceInput::curves
   std::string whyNot;    ///< empty, or why it is not followed; its path is then a point
+  std::string remark; ///< of a feature or stroke, where it is not followed all along; mostly empty
   /// Of moves: the irregular vertices that the quads are to have with all moves, on features and boundaries too, where
   /// the quads without them show the others; null: not known.
   std::shared_ptr<const std::vector<ValencePlace>> irregular;

@@ -566,6 +566,26 @@ std::optional<MeshPath> pathOnMesh(const Mesh& mesh, const MeshPlace& from, cons
   return result;
 }
 
+std::vector<std::vector<Vector3>> MeshCourse::parts() const
+{
+  std::vector<std::vector<Vector3>> parts;
+  auto begin = points.begin();
+  const auto takeUntil = [&](std::vector<Vector3>::const_iterator end)
+  {
+    if (end - begin > 1)
+    {
+      parts.emplace_back(begin, end);
+    }
+    begin = end;
+  };
+  for (const std::size_t last : tornBehind)
+  {
+    takeUntil(points.begin() + static_cast<std::ptrdiff_t>(own[last]) + 1);
+  }
+  takeUntil(points.end());
+  return parts;
+}
+
 MeshCourse courseOnMesh(const Mesh& mesh, const std::vector<Vector3>& points, int threads)
 {
   const std::vector<MeshPlace> places = placesOnMesh(mesh, points, threads);
@@ -582,9 +602,9 @@ MeshCourse courseOnMesh(const Mesh& mesh, const std::vector<Vector3>& points, in
           course.points.push_back(crossing.point(mesh));
         }
       }
-      else if (!course.tornBehind)
+      else
       {
-        course.tornBehind = i - 1;
+        course.tornBehind.push_back(i - 1);
       }
     }
     if (course.points.empty() || course.points.back() != points[i])

@@ -40,9 +40,12 @@ struct MeshCourse
 {
   std::vector<Vector3> points;  ///< the polyline's, and where it passes from face to face
   std::vector<std::size_t> own; ///< of each of the polyline's points: its place there
-  /// The first of two points of the polyline that lie on different components, if there are such; the course is
-  /// straight between them.
-  std::optional<std::size_t> tornBehind;
+  /// Of the polyline's points those that lie on another component than the next one; the course is straight between
+  /// them.
+  std::vector<std::size_t> tornBehind;
+
+  /// Those on each component, from one tear to the next, that have a length.
+  std::vector<std::vector<Vector3>> parts() const;
 };
 
 /// By paths from each point of a polyline near the mesh to the next.

@@ -248,6 +248,7 @@ private:
     const LinePlacements::Placed& placed = lines_.of(constraints_[at_], surface_, where_);
     part().whyNot = placed.line.whyNot;
     part().path = placed.line.path;
+    part().remark = placed.line.remark;
     part().place = placed.line.path.empty() ? part().place : placed.line.path.front();
     composed_.notices.insert(composed_.notices.end(), placed.notices.begin(), placed.notices.end());
     return placed;

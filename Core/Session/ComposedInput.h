@@ -24,6 +24,7 @@ struct PlacedPart
   std::string whyNot;              ///< empty, or why it is left out
   Vector3 place = Vector3::Zero(); ///< on the surface
   std::vector<Vector3> path;       ///< of lines: the course on the surface
+  std::string remark;              ///< of that, see PlacedConstraint
   std::vector<GuidedPlace> guided;
   std::optional<std::size_t> curve; ///< of connections and cycles: in the input's curves
   /// Of an irregular operation: places and their valences, but for those that a later operation has changed again.

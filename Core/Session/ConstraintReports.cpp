@@ -69,9 +69,20 @@ public:
     return words;
   }
 
-  ConstraintMeasure operator()(const FeatureLine&) { return measures_.curve(part_->path); }
+  ConstraintMeasure operator()(const FeatureLine&)
+  {
+    ConstraintMeasure measure = measures_.curve(part_->path);
+    measure.isMet = measure.isMet && part_->remark.empty(); // it is not there all along
+    measure.reason = withRemark(measure.reason, part_->remark);
+    return measure;
+  }
   ConstraintMeasure operator()(const ClearedAt&) { return measures_.cleared(part_->place); }
-  ConstraintMeasure operator()(const GuideStroke& stroke) { return guide(stroke.weight); }
+  ConstraintMeasure operator()(const GuideStroke& stroke)
+  {
+    ConstraintMeasure measure = guide(stroke.weight);
+    measure.remark = withRemark(measure.remark, part_->remark);
+    return measure;
+  }
   ConstraintMeasure operator()(const GuideRegion& region) { return guide(region.weight); }
   ConstraintMeasure operator()(const ValenceAt& at)
   {

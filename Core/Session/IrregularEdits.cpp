@@ -95,9 +95,21 @@ private:
       refuse(name_, " needs an irregular vertex near ", placeText(edit_.points[i]),
         ", but the quads have none inside: add a pair first");
     }
+    const Vector3& given = edit_.points[i];
+    const Vector3 side = sideOf(given);
+    const auto rank = [&](const IrregularVertex& vertex)
+    { return std::pair(!isOnSide(vertex, side), distanceTo(vertex, given)); };
     return *std::min_element(irregular_.begin(), irregular_.end(),
-      [&](const IrregularVertex& a, const IrregularVertex& b)
-      { return distanceTo(a, edit_.points[i]) < distanceTo(b, edit_.points[i]); });
+      [&](const IrregularVertex& a, const IrregularVertex& b) { return rank(a) < rank(b); });
+  }
+  /// The normal of the quads at a place; zero: not known.
+  Vector3 sideOf(const Vector3& given) const
+  {
+    return where_.quads == nullptr ? Vector3(Vector3::Zero()) : where_.quads->normalAt(given);
+  }
+  bool isOnSide(const IrregularVertex& vertex, const Vector3& side) const
+  {
+    return areOnOneSide(shownPlaceOf(vertex).normal, side);
   }
   /// Where it is shown; one without edges there is shown at its own place.
   ShownPlace shownPlaceOf(const IrregularVertex& vertex) const
@@ -105,7 +117,7 @@ private:
     static const ShownPlaces kNoneShown;
     const ShownPlaces& shown = where_.shown == nullptr ? kNoneShown : *where_.shown;
     const auto found = shown.find(vertex.place);
-    return found == shown.end() ? ShownPlace{ vertex.place, 0 } : found->second;
+    return found == shown.end() ? ShownPlace{ vertex.place } : found->second;
   }
   /// Of its place itself who gives exactly that, else of where it is shown.
   double distanceTo(const IrregularVertex& vertex, const Vector3& given) const
@@ -149,13 +161,14 @@ private:
   const IrregularVertex* shownNear(const IrregularVertex& moved, std::size_t i) const
   {
     constexpr double kJoinsWithin = 0.5; // edge lengths
+    const Vector3 side = sideOf(edit_.points[i]);
     const IrregularVertex* nearest = nullptr;
     for (const IrregularVertex& vertex : irregular_)
     {
       const double within =
         std::max(where_.sameWithin, kJoinsWithin * shownPlaceOf(vertex).edgeLength);
       const double distance = distanceTo(vertex, edit_.points[i]);
-      if (!(vertex == moved) && distance <= within &&
+      if (!(vertex == moved) && distance <= within && isOnSide(vertex, side) &&
         (nearest == nullptr || distance < distanceTo(*nearest, edit_.points[i])))
       {
         nearest = &vertex;

@@ -65,6 +65,8 @@ struct PlacesOfEdits
   double sameWithin = 0; ///< places that are no farther apart are one
   /// Of irregular vertices, as places are given by what is seen; a vertex without one is looked for at its own place.
   const ShownPlaces* shown = nullptr;
+  /// What these are shown in, as a place means vertices on its side of a thin wall; null: on both.
+  const NearestQuads* quads = nullptr;
 };
 
 /// Fills before and changes of the operation. A move that ends within half an edge length of where another irregular

@@ -30,7 +30,8 @@ struct IrregularPair
 
 /// All pairs within reach, by a sweep along x.
 std::vector<IrregularPair> pairsWithin(const std::vector<IrregularVertex>& expected,
-  const std::vector<IrregularVertex>& actual, const std::vector<double>& reach)
+  const std::vector<IrregularVertex>& actual, const std::vector<double>& reach,
+  const std::function<bool(std::size_t, std::size_t)>& mayPair)
 {
   std::vector<std::size_t> order(actual.size());
   std::iota(order.begin(), order.end(), 0);
@@ -45,7 +46,8 @@ std::vector<IrregularPair> pairsWithin(const std::vector<IrregularVertex>& expec
     for (; at != order.end() && actual[*at].place.x() <= p.x() + reach[i]; ++at)
     {
       const double squared = (actual[*at].place - p).squaredNorm();
-      if (squared <= reach[i] * reach[i] && actual[*at].valence == expected[i].valence)
+      if (squared <= reach[i] * reach[i] && actual[*at].valence == expected[i].valence &&
+        (!mayPair || mayPair(i, *at)))
       {
         pairs.push_back({ squared, i, *at });
       }
@@ -115,11 +117,12 @@ private:
 } // namespace
 
 IrregularMatch matchIrregular(const std::vector<IrregularVertex>& expected,
-  const std::vector<IrregularVertex>& actual, const std::vector<double>& reach)
+  const std::vector<IrregularVertex>& actual, const std::vector<double>& reach,
+  const std::function<bool(std::size_t, std::size_t)>& mayPair)
 {
   IrregularMatch match;
   match.actual =
-    Partners(pairsWithin(expected, actual, reach), expected.size(), actual.size()).take();
+    Partners(pairsWithin(expected, actual, reach, mayPair), expected.size(), actual.size()).take();
   std::vector<std::uint8_t> isTaken(actual.size(), 0);
   for (const std::optional<std::size_t>& partner : match.actual)
   {
@@ -171,7 +174,8 @@ std::vector<ValencePlace> expectedIrregular(
   return expected;
 }
 
-ShownPlaces shownPlaces(const std::vector<IrregularVertex>& irregular, const QuadMesh& quads)
+ShownPlaces shownPlaces(
+  const std::vector<IrregularVertex>& irregular, const QuadMesh& quads, const NearestQuads& nearest)
 {
   const std::vector<std::uint8_t> isOnLine = pointsOnCurves(quads);
   std::vector<double> length(quads.points.size(), 0), edges(quads.points.size(), 0);
@@ -195,11 +199,18 @@ ShownPlaces shownPlaces(const std::vector<IrregularVertex>& irregular, const Qua
     if (isOnLine[p] == 0 && quads.valence[p] != kRegularValence && edges[p] > 0)
     {
       points.push_back({ quads.points[p], quads.valence[p] });
-      places.push_back({ quads.points[p], length[p] / edges[p] });
+      places.push_back({ quads.points[p], length[p] / edges[p], nearest.pointNormal(p) });
       reach.push_back(kReachOfSmoothing * places.back().edgeLength);
     }
   }
-  const IrregularMatch match = matchIrregular(points, irregular, reach);
+  std::vector<Vector3> normals;
+  normals.reserve(irregular.size());
+  for (const IrregularVertex& vertex : irregular)
+  {
+    normals.push_back(nearest.normalAt(vertex.place));
+  }
+  const IrregularMatch match = matchIrregular(points, irregular, reach,
+    [&](std::size_t i, std::size_t k) { return areOnOneSide(places[i].normal, normals[k]); });
   ShownPlaces shown;
   for (std::size_t i = 0; i < points.size(); ++i)
   {

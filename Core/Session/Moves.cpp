@@ -55,7 +55,9 @@ void change(
 struct QuadsBefore
 {
   std::vector<IrregularVertex> irregular; ///< that can be moved
-  ShownPlaces shown;                      ///< where these are seen
+  std::unique_ptr<const QuadMesh> quads;  ///< their points and corners
+  NearestQuads nearest;                   ///< of these
+  ShownPlaces shown;                      ///< where irregular vertices are seen
   std::vector<IrregularVertex> points;    ///< all irregular points of the quads
   FixedPlaces fixed;
   std::vector<HeldVertex> onFeatures;
@@ -70,15 +72,21 @@ QuadsBefore quadsBefore(const SurfaceInput& surface, const RemeshResult& without
   const OnCurves onCurves = findOnCurves(made, threads);
   std::vector<IrregularVertex> irregular = irregularVertices(
     made, without.turns, onCurves, surface.drawn.valences, kTakenVertex * without.targetEdgeLength);
-  ShownPlaces shown = shownPlaces(irregular, without.quads);
-  return { std::move(irregular), std::move(shown), irregularPoints(without.quads),
-    fixedPlaces(made, onCurves, without.withoutMap), featureVertices(made, without.onFeatures),
-    without.curves, without.targetEdgeLength, without.failed.components };
+  auto quads = std::make_unique<QuadMesh>();
+  quads->points = without.quads.points;
+  quads->quads = without.quads.quads;
+  NearestQuads nearest(*quads);
+  ShownPlaces shown = shownPlaces(irregular, without.quads, nearest);
+  return { std::move(irregular), std::move(quads), std::move(nearest), std::move(shown),
+    irregularPoints(without.quads), fixedPlaces(made, onCurves, without.withoutMap),
+    featureVertices(made, without.onFeatures), without.curves, without.targetEdgeLength,
+    without.failed.components };
 }
 
 std::size_t bytesOfQuadsBefore(const QuadsBefore& before)
 {
-  return sizeof(before) + bytesOf(before.irregular) +
+  return sizeof(before) + bytesOf(before.irregular) + bytesOf(before.quads->points) +
+    bytesOf(before.quads->quads) + before.nearest.bytes() +
     before.shown.size() * sizeof(ShownPlaces::value_type) + bytesOf(before.points) +
     bytesOf(before.fixed.edges) + bytesOf(before.fixed.withoutMap) + bytesOf(before.onFeatures) +
     bytesOf(before.curves);
@@ -89,8 +97,9 @@ class MoveList
 {
 public:
   MoveList(const PlacesOfSession& where, const QuadsBefore& before)
-    : where_(where), irregular_(before.irregular), shown_(before.shown), points_(before.points),
-      fixed_(before.fixed), onFeatures_(before.onFeatures), edgeLength_(before.edgeLength)
+    : where_(where), irregular_(before.irregular), quads_(before.nearest), shown_(before.shown),
+      points_(before.points), fixed_(before.fixed), onFeatures_(before.onFeatures),
+      edgeLength_(before.edgeLength)
   {
   }
 
@@ -104,7 +113,7 @@ public:
     try
     {
       way = resolveEdit(edit, "move " + std::to_string(move.source),
-        { where_.places, fixed_, where_.sameWithin, &shown_ }, irregular_);
+        { where_.places, fixed_, where_.sameWithin, &shown_, &quads_ }, irregular_);
     }
     catch (const InvalidInput& error)
     {
@@ -122,7 +131,8 @@ public:
     for (const IrregularEdit::Change& made : edit.changes)
     {
       quadrille::change(points_, made);
-      shown_[made.place] = { made.place, edgeLength_ }; // what was moved is not smoothed
+      // What was moved is not smoothed.
+      shown_[made.place] = { made.place, edgeLength_, quads_.normalAt(made.place) };
     }
     move.valence = list_.valenceAt(move.path[1]);
     auto constraint = std::make_shared<SessionConstraint>();
@@ -136,6 +146,7 @@ public:
 private:
   const PlacesOfSession& where_;
   std::vector<IrregularVertex> irregular_;
+  const NearestQuads& quads_;
   ShownPlaces shown_;
   std::vector<IrregularVertex> points_;
   const FixedPlaces& fixed_;

@@ -367,9 +367,10 @@ int Session::add(ConstraintContent content)
         now ? now->report.status.message : "the run was stopped");
     }
     const PlacesOfSession where = data_->places(settings());
-    const ShownPlaces shown = shownPlaces(now->irregular, now->quads);
+    const NearestQuads quads(now->quads);
+    const ShownPlaces shown = shownPlaces(now->irregular, now->quads, quads);
     resolveEdit(
-      *edit, name, { where.places, now->fixed, where.sameWithin, &shown }, now->irregular);
+      *edit, name, { where.places, now->fixed, where.sameWithin, &shown, &quads }, now->irregular);
     edit->upon = data_->linksInForce();
     edit->onFeatures = now->onFeatures;
     edit->withoutMap = now->fixed.insideOfFaces;
@@ -400,9 +401,11 @@ void Session::edit(int id, ConstraintContent content)
     const std::shared_ptr<const SessionResult> now = result();
     const PlacesOfSession where = data_->places(settings());
     const FixedPlaces none;
-    const ShownPlaces shown = now ? shownPlaces(made.before, now->quads) : ShownPlaces();
+    const QuadMesh noQuads;
+    const NearestQuads quads(now ? now->quads : noQuads);
+    const ShownPlaces shown = shownPlaces(made.before, now ? now->quads : noQuads, quads);
     resolveEdit(*edit, before.name(),
-      { where.places, now ? now->fixed : none, where.sameWithin, &shown }, made.before);
+      { where.places, now ? now->fixed : none, where.sameWithin, &shown, &quads }, made.before);
     edit->upon = made.upon;
     edit->onFeatures = made.onFeatures;
     edit->withoutMap = made.withoutMap;

@@ -55,6 +55,20 @@ QuadMesh turnedGrid(int n, double degrees)
   return mesh;
 }
 
+/// turnedGrid(20, 0) with a feature along each of these rows.
+QuadMesh gridWithFeatures(const std::vector<Index>& rows)
+{
+  QuadMesh mesh = turnedGrid(20, 0);
+  for (const Index row : rows)
+  {
+    for (Index i = 21 * row; i < 21 * row + 20; ++i)
+    {
+      mesh.lines.push_back({ i, i + 1, kInvalidIndex, false });
+    }
+  }
+  return mesh;
+}
+
 /// A plate of triangles from -4 to 4, well inside of turnedGrid(20, ...).
 vtkSmartPointer<vtkPolyData> plate()
 {
@@ -199,15 +213,16 @@ TEST(ConstraintTable, PointsFartherThanHalfAnEdgeLengthOffTheSurfaceAreTold)
   }
 }
 
-TEST(ConstraintTable, CurvesAreAsFarAsTheNearestEdges)
+TEST(ConstraintTable, CurvesAreAsFarAsTheNearestFeatures)
 {
   const vtkSmartPointer<vtkPolyData> data = plate(); // its lines are half a quad apart
+  const QuadMesh mesh = gridWithFeatures({ 11 });    // at y = 1
   for (const auto& [y, off] : { std::pair{ 1.0, 0.0 }, { 1.5, 0.5 } })
   {
     const vtkSmartPointer<vtkPolyData> curve = test::polyline({ { -4, y, 0 }, { 4, y, 0 } });
     ConstraintInputs inputs;
     inputs.curves = curve;
-    const auto words = judgeConstraints(ask(data, inputs), turnedGrid(20, 0), {});
+    const auto words = judgeConstraints(ask(data, inputs), mesh, {});
     ASSERT_EQ(words.size(), 1u);
     EXPECT_STREQ(words[0].kind, "feature curve");
     EXPECT_STREQ(words[0].unit, "edge lengths");
@@ -241,7 +256,7 @@ TEST(ConstraintTable, MarkedEdgesAreACurveEach)
   const AskedConstraints asked = ask(data);
   ASSERT_EQ(asked.arrays.curves.size(), 2u);
   EXPECT_EQ(asked.arrays.curves[0].edges.size(), 16u);
-  const auto words = judgeConstraints(asked, turnedGrid(20, 0), {});
+  const auto words = judgeConstraints(asked, gridWithFeatures({ 9, 11 }), {}); // y = -1, y = 1
   EXPECT_TRUE(words[0].isMet);
   EXPECT_NEAR(words[1].deviation, 0.5, 1e-9);
 }
@@ -317,7 +332,7 @@ TEST(ConstraintTable, WhatIsNotFollowedHasARowToo)
   for (const ConstraintWord& word : words)
   {
     EXPECT_FALSE(word.isMet);
-    EXPECT_NE(word.reason.find("is not followed"), std::string::npos);
+    EXPECT_NE(word.reason.find("has no length"), std::string::npos);
     EXPECT_EQ(word.place, Vector3(1, 1, 0));
   }
   // What is not followed is shown where it was drawn.

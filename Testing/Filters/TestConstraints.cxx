@@ -160,13 +160,19 @@ TEST(Constraints, AnArrayOfVectorsGuides)
   EXPECT_THROW(addGuideArray(data, "Fibre", other), InvalidInput);
 }
 
-TEST(Constraints, NoPathBetweenComponentsIsAnError)
+TEST(Constraints, NoPathBetweenComponentsIsTold)
 {
   const Mesh mesh =
     test::disjointUnion(test::gridPlane(2, 2), test::gridPlane(2, 2), Vector3(0, 0, 5));
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(mesh);
   ConvertedSurface surface = convertSurface(data, "");
-  EXPECT_THROW(applyCurves(surface, test::polyline({ { 0, 0, 0 }, { 0, 0, 5 } })), InvalidInput);
+  const vtkSmartPointer<vtkPolyData> line = test::polyline({ { 0, 0, 0 }, { 0, 0, 5 } });
+  ConstraintInputs inputs;
+  inputs.curves = line;
+  const PlacedConstraints result = applyConstraints(surface, inputs);
+  ASSERT_EQ(result.placed.size(), 1u);
+  EXPECT_NE(result.placed[0].remark.find("different parts"), std::string::npos)
+    << result.placed[0].remark;
 }
 
 TEST(Constraints, FarFromTheSurfaceIsSeenInTheDistance)

@@ -104,11 +104,12 @@ def nearest_of_valence(place, valence):
     return float(numpy.linalg.norm(those - place, axis=1).min()) if len(those) else math.inf
 
 
-def off_edges(expected):
-    """The largest distance of places from the edges of the quads."""
-    points, corners = quad_arrays()
-    starts, ends = points[corners].reshape(-1, 3), points[numpy.roll(corners, -1, axis=1)].reshape(-1, 3)
-    along = ends - starts
+def off_lines(expected):
+    """The largest distance of places from the edges of the quads on features and boundaries; infinite without these."""
+    ends = lines_of_quads()[0]
+    if not len(ends):
+        return math.inf
+    starts, along = ends[:, 0], ends[:, 1] - ends[:, 0]
     worst = 0
     for place in numpy.array(expected):
         share = numpy.clip(((place - starts) * along).sum(axis=1) / (along ** 2).sum(axis=1), 0, 1)
@@ -122,14 +123,20 @@ def valence_at(place):
     return int(count[((points - place) ** 2).sum(axis=1).argmin()])
 
 
-def features():
-    """The ends of the edges of the quads on features, #E by 2 by 3."""
+def lines_of_quads():
+    """The ends of the edges of the quads on features and boundaries, #E by 2 by 3, and whether they are on these."""
     data = output(2)
     if data.GetNumberOfLines() == 0:
-        return numpy.zeros((0, 2, 3))
+        return numpy.zeros((0, 2, 3)), numpy.zeros(0, bool)
     ends = vtk_to_numpy(data.GetLines().GetConnectivityArray()).reshape(-1, 2)
-    inner = vtk_to_numpy(data.GetCellData().GetArray("Boundary")) == 0
-    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)[ends[inner]]
+    on_boundary = vtk_to_numpy(data.GetCellData().GetArray("Boundary")) != 0
+    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)[ends], on_boundary
+
+
+def features():
+    """The ends of the edges of the quads on features, #E by 2 by 3."""
+    ends, on_boundary = lines_of_quads()
+    return ends[~on_boundary]
 
 
 def off_features(place):

@@ -6,6 +6,7 @@ Rays are made from the camera's properties alone, so that what they say is not w
 """
 import math
 import os
+import random
 
 import numpy
 import quadrille  # the raw classes behind the proxies
@@ -149,6 +150,26 @@ def look(azimuth, elevation):
     simple.ResetCamera(view)
     view.GetActiveCamera().Dolly(1.35)
     simple.Render(view)
+
+
+def come_near(seed, pixels):
+    """Where an edge of the quads has fewer pixels than these, the camera goes towards a random place that is seen until
+    it has them: quads that small nobody draws on."""
+    random.seed(seed)
+    eye, _, _, forward = axes()
+    width, height = view.ViewSize
+    near = edge_length() * height / (2 * half_height() * pixels)
+    for _ in range(400):
+        place = seen_at((random.uniform(0, width), random.uniform(0, height)))
+        if place is not None:
+            break
+    else:
+        return
+    if (numpy.array(place) - eye).dot(forward) > near:
+        view.CameraFocalPoint = place
+        view.CameraPosition = (numpy.array(place) - near * forward).tolist()
+        view.GetRenderer().ResetCameraClippingRange()
+        simple.Render(view)
 
 
 def applied(name):

@@ -178,10 +178,10 @@ def feature(session, chance):
     if not session.drawn():
         return NOTHING
     off = session.value(f"line_off({places!r})") / session.edge
-    away = session.value(f"off_edges({places!r})") / session.edge
+    away = session.value(f"off_lines({places!r})") / session.edge
     met, reason = session.word("feature curve") or (None, "no row")
     is_true = met is not None and (away <= MET_OFF + off if met else away > MET_OFF - off)
-    return Outcome(off, met, is_true, f"edges {away:.2f} off; {reason}")
+    return Outcome(off, met, is_true, f"features {away:.2f} off; {reason}")
 
 
 def clear(session, chance):

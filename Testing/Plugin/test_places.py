@@ -29,6 +29,7 @@ import private_display
 SURFACE = pathlib.Path(os.environ["QUADRILLE_DATA"]) / "beast.ply"
 ALLOWED = 0.5  # edge lengths
 NEAR = 0.3     # edge lengths between what pixels beside each other see
+PIXELS = 12    # of an edge at least; three of them are what a place is seen with
 
 
 class Session(count_actions.Window):
@@ -150,7 +151,10 @@ class Session(count_actions.Window):
 
 
 def random_view(session, chance):
-    session.look(round(chance.uniform(0, 360), 3), round(chance.uniform(-30, 45), 3))
+    """From so near that pixels beside each other can clearly see one place."""
+    azimuth, elevation = round(chance.uniform(0, 360), 3), round(chance.uniform(-30, 45), 3)
+    session.look(azimuth, elevation)
+    session.ask(f"come_near({azimuth}, {PIXELS})")
 
 
 def summary(what, off):

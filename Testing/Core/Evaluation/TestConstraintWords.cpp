@@ -425,11 +425,50 @@ TEST(ConstraintMeasures, CurvesAreMeasuredInTheEdgeLengthOfTheQuadsThere)
   QuadMesh mesh;
   mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0.2, 0 }, { 0, 1, 0 } };
   mesh.quads = { { 0, 1, 2, 3 } };
+  mesh.lines = { { 1, 2, kInvalidIndex, true } };
   const double edges = (1 + 0.2 + std::hypot(1, 0.8) + 1) / 4;
   const ConstraintMeasure word =
     ConstraintMeasures(mesh).curve(std::vector<Vector3>{ { 1.1, 0, 0 }, { 1.1, 0.2, 0 } });
   EXPECT_NEAR(word.deviation, 0.1 / edges, 1e-12);
   EXPECT_TRUE(word.isMet);
+}
+
+// Other edges pass near every line: a diagonal is never farther from one than half an edge length.
+TEST(ConstraintMeasures, CurvesAreMetByFeaturesAndNotByAnyEdges)
+{
+  QuadMesh mesh = plane();
+  const std::vector<Vector3> along{ { 2, 3, 0 }, { 6, 3, 0 } };
+  const ConstraintMeasure without = ConstraintMeasures(mesh).curve(along);
+  EXPECT_FALSE(without.isMet);
+  EXPECT_EQ(without.deviation, kInfinity);
+  for (Index x = 2; x < 5; ++x)
+  {
+    mesh.lines.push_back({ pointAt(x, 3), pointAt(x + 1, 3), kInvalidIndex, false });
+  }
+  const ConstraintMeasure ending = ConstraintMeasures(mesh).curve(along);
+  EXPECT_FALSE(ending.isMet);
+  EXPECT_NEAR(ending.deviation, 1, 1e-12);
+  EXPECT_EQ(ending.place, Vector3(6, 3, 0));
+  mesh.lines.push_back({ pointAt(5, 3), pointAt(6, 3), kInvalidIndex, false });
+  EXPECT_TRUE(ConstraintMeasures(mesh).curve(along).isMet);
+}
+
+// Over two parts of the surface, say.
+TEST(ConstraintWords, AFeatureThatIsNotFollowedAllAlongIsNotMet)
+{
+  QuadMesh mesh = plane();
+  mesh.lines = { { pointAt(2, 3), pointAt(3, 3), kInvalidIndex, false } };
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Feature;
+  placed.given = placed.path = { { 2, 3, 0 }, { 3, 3, 0 } };
+  AskedConstraints asked;
+  asked.placed = { placed, placed };
+  asked.placed[1].remark = "it is not followed there";
+  const std::vector<ConstraintWord> words = judgeConstraints(asked, mesh, {});
+  ASSERT_EQ(words.size(), 2U);
+  EXPECT_TRUE(words[0].isMet) << words[0].reason;
+  EXPECT_FALSE(words[1].isMet);
+  EXPECT_EQ(words[1].reason, "it is not followed there");
 }
 
 // A quad that rises at 45 degrees from triangles in the plane z = 0, as at a bend of the surface.

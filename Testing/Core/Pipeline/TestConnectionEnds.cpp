@@ -3,6 +3,9 @@
 /// What connections join in quads without them.
 #include "Pipeline/ConnectionEnds.h"
 
+#include "Pipeline/DrawnOnSurface.h"
+#include "TestMeshes.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -178,6 +181,20 @@ TEST(ConnectionEnds, AreOnTheirSideOfAThinWall)
   EXPECT_EQ(
     input.curves[0].points, (std::vector<Vector3>{ { 1, 4, 0 }, { 5.5, 5, 0 }, { 5.5, 6, 0 } }));
   EXPECT_EQ(input.drawn.valences.size(), 1U);
+}
+
+TEST(ConnectionEnds, TakeThePlaceOfTheSameValenceOnTheirSideOnly)
+{
+  PreparedSurface surface;
+  surface.mesh = test::unitCube(8);
+  for (Vector3& p : surface.mesh.position.editAll())
+  {
+    p = Vector3(8 * p.x(), 8 * p.y(), 0.1 * p.z());
+  }
+  const Vector3 begin(2, 4, 0.1), end(6, 4, 0.1), under(2, 4, 0), beside(2.2, 4, 0.1);
+  surface.curves = { { CurveKind::Connection, { begin, end }, Valences{ 3, 5 } } };
+  EXPECT_EQ(withEnds(surface, { { under, 3 }, { beside, 3 }, { beside, 6 } }, 1, 1),
+    (std::vector<ValencePlace>{ { under, 3 }, { beside, 6 }, { begin, 3 }, { end, 5 } }));
 }
 
 TEST(ConnectionEnds, ThatAreNotFoundAreTold)

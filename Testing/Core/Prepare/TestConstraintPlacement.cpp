@@ -111,27 +111,44 @@ TEST_F(PlacementOnACube, ACycleIsClosedOverAllSides)
   }
 }
 
-TEST(ConstraintPlacement, NoLineLeadsFromOnePartToAnother)
+/// As over two bodies that touch.
+TEST(ConstraintPlacement, ALineOverTwoPartsIsFollowedOnBoth)
 {
   const SurfaceInput input =
     toInput(disjointUnion(gridPlane(2, 2), gridPlane(2, 2), Vector3(0, 0, 5)));
   const SurfacePlaces places(input);
   const SurfacePaths paths(input);
   ConstraintPlacement placement(input, places, paths);
-  for (const bool isStroke : { false, true })
+  const DrawnLine line{ 3, { { 0.5, 0, 0 }, { 0.5, 1, 0 }, { 0.5, 1, 5 }, { 0.5, 2, 5 } } };
+  placement.addFeature(line);
+  placement.addStroke(line, 1, 0.1);
+  ASSERT_EQ(placement.requests().features.size(), 1U);
+  EXPECT_EQ(placement.requests().features[0].points, line.points);
+  const std::vector<PlacedConstraint>& placed = placement.result().placed;
+  ASSERT_EQ(placed.size(), 2U);
+  for (const PlacedConstraint& constraint : placed)
   {
-    const DrawnLine line{ 3, { { 0.5, 0, 0 }, { 0.5, 0, 5 } } };
-    try
-    {
-      isStroke ? placement.addStroke(line, 1) : placement.addFeature(line);
-      ADD_FAILURE();
-    }
-    catch (const InvalidInput& error)
-    {
-      EXPECT_NE(std::string(error.what()).find("(0.5, 0, 5)"), std::string::npos) << error.what();
-    }
+    EXPECT_EQ(constraint.whyNot, "");
+    EXPECT_NE(constraint.remark.find("from (0.5, 1, 0) to (0.5, 1, 5)"), std::string::npos)
+      << constraint.remark;
   }
-  EXPECT_TRUE(placement.requests().empty());
+  ASSERT_FALSE(placed[1].guided.empty());
+  for (const GuidedPlace& guided : placed[1].guided)
+  {
+    EXPECT_NEAR(std::abs(guided.direction.y()), 1, 1e-9); // none between the two
+  }
+}
+
+/// Of a line with a point on each there is none on any.
+TEST(ConstraintPlacement, ALineFromOnePartToAnotherRunsOverNone)
+{
+  const SurfaceInput input =
+    toInput(disjointUnion(gridPlane(2, 2), gridPlane(2, 2), Vector3(0, 0, 5)));
+  const SurfacePlaces places(input);
+  const SurfacePaths paths(input);
+  ConstraintPlacement placement(input, places, paths);
+  placement.addStroke({ 3, { { 0.5, 0, 0 }, { 0.5, 0, 5 } } }, 1, 0.1);
+  EXPECT_TRUE(placement.result().placed[0].guided.empty());
 }
 
 TEST(ConstraintPlacement, ValenceTwoIsRefusedOnTheBoundaryOnly)

@@ -160,7 +160,7 @@ TEST_F(ConstraintsOnFilledFaces, AStrokeFromThemToOthersFindsItsWay)
   const Vector3& to = *std::min_element(inRest_.begin(), inRest_.end(),
     [&](const Vector3& a, const Vector3& b) { return (a - from).norm() < (b - from).norm(); });
   const ConstraintReport word = wordOn(session_.add(GuideStroke{ { from, to } }));
-  EXPECT_EQ(word.reason.find("different parts"), std::string::npos) << word.reason;
+  EXPECT_EQ(word.remark.find("different parts"), std::string::npos) << word.remark;
   EXPECT_TRUE(word.deviation) << word.reason; // it was measured in the quads
 }
 

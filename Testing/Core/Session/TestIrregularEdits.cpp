@@ -6,6 +6,7 @@
 #include "Base/PlaceText.h"
 #include "Mesh/Requests.h"
 #include "PlyFile.h"
+#include "Session/IrregularEdits.h"
 #include "Session/IrregularMatch.h"
 #include "StaggeredTube.h"
 
@@ -173,7 +174,8 @@ TEST_F(IrregularEdits, VerticesMergeAndSplit)
 TEST_F(IrregularEdits, AVertexThatIsMovedToWhereAnotherIsSeenJoinsIt)
 {
   PlaceValences expected = valencesOf(*session_.result());
-  const ShownPlaces shown = shownPlaces(before_, session_.result()->quads);
+  const QuadMesh& quads = session_.result()->quads;
+  const ShownPlaces shown = shownPlaces(before_, quads, NearestQuads(quads));
   EXPECT_EQ(shown.size(), before_.size());
   const IrregularVertex a = loneliest(3);
   const IrregularVertex b = *std::min_element(before_.begin(), before_.end(),
@@ -420,6 +422,100 @@ TEST(IrregularEditsOnFilledFaces, AreRefusedWithTheFace)
       EXPECT_NE(std::string(error.what()).find("has no map"), std::string::npos) << error.what();
     }
   }
+}
+
+/// Both sides of a wall, unit quads from 0 to 8, a tenth of an edge apart; side 0 is seen from above.
+Index pointOfWall(Index side, Index x, Index y)
+{
+  return (side * 9 + y) * 9 + x;
+}
+
+QuadMesh thinWall()
+{
+  QuadMesh quads;
+  for (const Index side : { 0U, 1U })
+  {
+    for (Index y = 0; y <= 8; ++y)
+    {
+      for (Index x = 0; x <= 8; ++x)
+      {
+        quads.points.emplace_back(x, y, -0.1 * side);
+      }
+    }
+    for (Index y = 0; y < 8; ++y)
+    {
+      for (Index x = 0; x < 8; ++x)
+      {
+        const Index left = pointOfWall(side, x, side == 0 ? y : y + 1);
+        const Index right = pointOfWall(side, x, side == 0 ? y + 1 : y);
+        quads.quads.push_back({ left, left + 1, right + 1, right });
+      }
+    }
+  }
+  quads.valence.assign(quads.points.size(), kRegularValence);
+  quads.onBoundary.assign(quads.points.size(), 0);
+  return quads;
+}
+
+/// On a wall one vertex is seen beside its place in the map, nearer to which is one of the other side.
+class IrregularEditsOnAThinWall : public ::testing::Test
+{
+protected:
+  IrregularEditsOnAThinWall()
+  {
+    quads_.valence[pointOfWall(0, 2, 4)] = quads_.valence[pointOfWall(1, 5, 4)] = 3;
+    std::vector<Index> offsets{ 0 }, corners;
+    for (const auto& quad : quads_.quads)
+    {
+      corners.insert(corners.end(), quad.begin(), quad.end());
+      offsets.push_back(static_cast<Index>(corners.size()));
+    }
+    input_.points = quads_.points;
+    input_.polygonOffsets = offsets;
+    input_.polygonPoints = corners;
+  }
+
+  /// Of a move.
+  IrregularEdit edited(const Vector3& from, const Vector3& to)
+  {
+    const SurfacePlaces places(input_);
+    const NearestQuads nearest(quads_);
+    const ShownPlaces shown = shownPlaces(irregular_, quads_, nearest);
+    IrregularEdit edit;
+    edit.points = { from, to };
+    resolveEdit(edit, "move", { places, {}, 0.01, &shown, &nearest }, irregular_);
+    return edit;
+  }
+
+  QuadMesh quads_ = thinWall();
+  SurfaceInput input_;
+  std::vector<IrregularVertex> irregular_{ { Vector3(2.5, 4, 0), 3 }, { Vector3(5, 4, -0.1), 3 } };
+};
+
+TEST_F(IrregularEditsOnAThinWall, AMoveOverOneOfTheOtherSideDoesNotJoinIt)
+{
+  const IrregularEdit edit = edited({ 2, 4, 0 }, { 5, 4, 0 });
+  ASSERT_EQ(edit.changes.size(), 2U);
+  EXPECT_EQ(edit.changes[0].place, Vector3(2.5, 4, 0));
+  EXPECT_EQ(edit.changes[1].place, Vector3(5, 4, 0));
+  EXPECT_EQ(edit.changes[1].after, 3);
+  // From the other side it is that one.
+  EXPECT_EQ(edited({ 5, 4, -0.1 }, { 2.1, 4, -0.1 }).changes[1].place, Vector3(5, 4, -0.1));
+}
+
+TEST_F(IrregularEditsOnAThinWall, AMoveTakesTheVertexOfItsSide)
+{
+  // Under it one of the other side.
+  EXPECT_EQ(edited({ 4.9, 4, 0 }, { 4, 6, 0 }).changes[0].place, Vector3(2.5, 4, 0));
+}
+
+TEST_F(IrregularEditsOnAThinWall, AVertexIsShownOnItsOwnSide)
+{
+  irregular_ = { { Vector3(4, 4, 0), 3 }, { Vector3(3.5, 4, -0.1), 3 } };
+  const ShownPlaces shown = shownPlaces(irregular_, quads_, NearestQuads(quads_));
+  ASSERT_EQ(shown.size(), 2U);
+  EXPECT_EQ(shown.at(irregular_[0].place).point, Vector3(2, 4, 0));
+  EXPECT_EQ(shown.at(irregular_[1].place).point, Vector3(5, 4, -0.1));
 }
 
 TEST(IrregularMatch, PairsAsManyAsCanBe)
