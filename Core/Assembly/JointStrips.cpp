@@ -252,7 +252,6 @@ void JointStrips::spreadOnBoundary(const ChainPlace& place, Index point)
 
 void JointStrips::goTowards(Index p, const Vector3& displacement)
 {
-  constexpr int mostFaces = 1000;
   const bool isOnFeature = std::any_of(quads_.lines.begin(), quads_.lines.end(),
     [p](const QuadLine& line) { return !line.boundary && (line.a == p || line.b == p); });
   std::optional<SurfacePoint> there;
@@ -263,8 +262,7 @@ void JointStrips::goTowards(Index p, const Vector3& displacement)
   }
   else
   {
-    there = walkSurface(
-      mesh_, { quads_.sourceFace[p], quads_.sourceWeights[p] }, displacement, mostFaces);
+    there = walkSurface(mesh_, { quads_.sourceFace[p], quads_.sourceWeights[p] }, displacement);
   }
   if (there)
   {

@@ -480,13 +480,12 @@ std::optional<SurfacePoint> middleOnSection(
 SurfacePoint approach(const Mesh& mesh, SurfacePoint from, const Vector3& target)
 {
   constexpr int kMostSectionSteps = 40;
-  constexpr int kFaces = 10000;
   double distance = (target - positionOf(mesh, from)).norm();
   double part = 1;
   for (int i = 0; i < kMostSectionSteps && distance > 0; ++i)
   {
     const Vector3 wanted = part * (target - positionOf(mesh, from));
-    const std::optional<SurfacePoint> place = walkSurface(mesh, from, wanted, kFaces);
+    const std::optional<SurfacePoint> place = walkSurface(mesh, from, wanted);
     const double there = place ? (target - positionOf(mesh, *place)).norm() : distance;
     if (there < (1 - kRounding) * distance)
     {

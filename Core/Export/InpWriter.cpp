@@ -12,6 +12,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <string_view>
 
 namespace quadrille
 {
@@ -21,6 +22,8 @@ namespace
 
 /// More different thicknesses than this are given by nodes.
 constexpr std::size_t kMostThicknesses = 64;
+/// What the name of a surface of sides has after that of its set.
+constexpr std::string_view kOfSides = "_EDGES";
 /// Characters of a real number, in both programs.
 constexpr std::size_t kInpReal = 20;
 
@@ -352,7 +355,7 @@ void writeInpSides(const std::vector<ElementSide>& sides, const std::string& nam
   }
   const bool isAbaqusShell = !isPlane && dialect == InpDialect::Abaqus;
   const int firstSide = isPlane || isAbaqusShell ? 1 : 3; // S1 and S2 of a shell are its faces
-  file << "*SURFACE, NAME=" << name << "_EDGES, TYPE=ELEMENT\n";
+  file << "*SURFACE, NAME=" << name << kOfSides << ", TYPE=ELEMENT\n";
   for (std::size_t i = 0; i < 4; ++i)
   {
     if (!elements[i].empty())
@@ -371,11 +374,10 @@ struct InpSetNames
 
 InpSetNames uniqueNames(const MeshSets& sets, SetNames& names)
 {
-  constexpr std::size_t kRoomForSides = 6; // _EDGES
   names.unique({ "NALL", "EALL" });
   InpSetNames result;
-  result.boundaries = names.uniqueOf(sets.boundaries, kRoomForSides);
-  result.curves = names.uniqueOf(sets.curves, kRoomForSides);
+  result.boundaries = names.uniqueOf(sets.boundaries, kOfSides.size());
+  result.curves = names.uniqueOf(sets.curves, kOfSides.size());
   result.corners = names.uniqueOf(sets.corners);
   // The generated names come first, so that a patch cannot take one of them.
   result.patches = names.uniqueOf(sets.patches);
@@ -436,7 +438,6 @@ std::vector<std::string> inpElementTypes(int nodesPerElement, InpDialect dialect
 std::vector<std::string> writeInp(
   const ElementMesh& mesh, const MeshSets& sets, const std::string& path, const InpOptions& options)
 {
-  constexpr double kAfterNodesOfInp = 0.4, kAfterElements = 0.7, kAfterSets = 0.85;
   const std::string type = typeOf(mesh, options);
   const bool isPlane = isPlaneType(type);
   if (isPlane)
@@ -451,11 +452,11 @@ std::vector<std::string> writeInp(
   file << "*HEADING\nQuads made by Quadrille: " << mesh.nodes.size() << " nodes, "
        << mesh.elementCount() << " elements\n";
   writeInpNodes(mesh, isPlane, file);
-  report(options.progress, kAfterNodesOfInp, text);
+  report(options.progress, 0.4, text);
   writeInpElements(mesh, type, file);
-  report(options.progress, kAfterElements, text);
+  report(options.progress, 0.7, text);
   writeInpSets(mesh, sets, names, isPlane, options.dialect, file);
-  report(options.progress, kAfterSets, text);
+  report(options.progress, 0.85, text);
   std::vector<std::string> notices = writeInpSections(mesh, type[0] == 'S', options, file);
   file.close();
   report(options.progress, 1, text);

@@ -44,7 +44,12 @@ public:
   Index otherSide(Index h, Index node) const;
 
 private:
-  static constexpr std::uint8_t kBoundary = 1, kFeature = 2, kLowestHalfEdge = 4;
+  enum EdgeFlag : std::uint8_t
+  {
+    kBoundary = 1,
+    kFeature = 2,
+    kLowestHalfEdge = 4
+  };
 
   void joinRun(const Index* begin, const Index* end);
 

@@ -64,10 +64,10 @@ public:
     if (is41)
     {
       writeEntities();
-      report(progress, kAfterEntities, text);
+      report(progress, 0.1, text);
     }
     is41 ? writeNodesByEntity() : writeNodeList();
-    report(progress, kAfterNodesOfMsh, text);
+    report(progress, 0.5, text);
     is41 ? writeElementsByEntity() : writeElementList();
     file_.close();
     report(progress, 1, text);
@@ -76,7 +76,6 @@ public:
   std::vector<std::string> notices() const { return names_.notices(); }
 
 private:
-  static constexpr double kAfterEntities = 0.1, kAfterNodesOfMsh = 0.5;
   static constexpr int kPoint = 15;
 
   int lineType() const { return mesh_.nodesPerElement == 4 ? 1 : 8; }

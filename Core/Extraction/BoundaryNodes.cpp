@@ -131,8 +131,7 @@ void Boundary::addAxis(Index h, bool u, std::vector<BoundaryNode>& list) const
     const Int128 moved = floorDivide(product, node.denominator);
     const Int128 rest = product - moved * node.denominator;
     const std::int64_t other = otherFrom + static_cast<std::int64_t>(moved);
-    const auto fine =
-      static_cast<std::int64_t>(rest * (Int128{ 1 } << kFineBits) / node.denominator);
+    const auto fine = static_cast<std::int64_t>(rest * kFine / node.denominator);
     node.uv = u ? FixedVec2{ x, other } : FixedVec2{ other, x };
     node.fine = u ? FixedVec2{ 0, fine } : FixedVec2{ fine, 0 };
     const bool both = rest == 0 && isInteger(other);

@@ -12,7 +12,7 @@ namespace quadrille
 {
 
 /// A crossing of an isoline with a boundary edge is told to 2^-56 quads where polygons are compared.
-constexpr int kFineBits = 32;
+constexpr std::int64_t kFine = std::int64_t{ 1 } << 32;
 
 /// Number of axis directions from the right side of corner h on, before its left side.
 int axesInCorner(const ExactMap& map, Index h);
@@ -26,7 +26,7 @@ struct BoundaryNode
   Index h = kInvalidIndex;          ///< boundary half-edge
   Index gridVertex = kInvalidIndex; ///< when it is an integer point
   FixedVec2 uv;   ///< in the chart of h; the coordinate along a crossing isoline is rounded down
-  FixedVec2 fine; ///< what is left of it, in units of 2^-kFineBits of the fixed-point grid
+  FixedVec2 fine; ///< what is left of it, in units of 1 / kFine of the fixed-point grid
   std::int64_t numerator = 0;   ///< place on h as a fraction, 0 at the origin
   std::int64_t denominator = 1; ///< > 0
   bool onU = false;             ///< lies on an isoline u = const, in the chart of h

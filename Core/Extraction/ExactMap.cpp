@@ -13,11 +13,6 @@ namespace quadrille
 namespace
 {
 
-/// Of sums of floating-point numbers.
-constexpr std::size_t kMapChunk = 1 << 15;
-/// Base/FixedPoint.h: differences of coordinates below this have exact determinants.
-constexpr std::int64_t kCoordinateLimit = std::int64_t{ 1 } << 44;
-
 void note(MapCheck& check, MapDefect kind, Index face)
 {
   ++check.count[kind];
@@ -149,7 +144,7 @@ template <typename Body>
 MapCheck overFaces(Index faces, int threads, const Body& body)
 {
   MapCheck whole;
-  for (const MapCheck& part : parallelParts<MapCheck>(faces, kMapChunk, threads, body))
+  for (const MapCheck& part : parallelParts<MapCheck>(faces, kLightChunk, threads, body))
   {
     merge(whole, part);
   }

@@ -14,6 +14,9 @@
 namespace quadrille
 {
 
+/// Base/FixedPoint.h: differences of coordinates below this, 2^20 quads, have exact determinants.
+constexpr std::int64_t kCoordinateLimit = std::int64_t{ 1 } << 44;
+
 /// The unit vector of axis `direction` (0..3: +u, +v, -u, -v) in fixed point.
 inline FixedVec2 axisVector(int direction)
 {

@@ -35,7 +35,6 @@ public:
     for (const Stop& stop : stops)
     {
       const FixedVec2 d = stop.uv - stops.front().uv;
-      constexpr std::int64_t kFine = std::int64_t{ 1 } << kFineBits;
       place_.push_back({ d.u * kFine + stop.fine.u, d.v * kFine + stop.fine.v });
     }
   }
@@ -149,7 +148,7 @@ private:
   double distance(Index i, Index a, Index b) const
   {
     const auto vector = [this](Index from, Index to) -> Vector2
-    { return toDouble(place_[to] - place_[from]) / static_cast<double>(1LL << kFineBits); };
+    { return toDouble(place_[to] - place_[from]) / static_cast<double>(kFine); };
     const Vector2 line = vector(a, b), way = vector(a, i);
     const double length = line.norm();
     return length > 0 ? std::abs(line.x() * way.y() - line.y() * way.x()) / length : way.norm();

@@ -17,7 +17,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kLimit = 1 << 20;
 /// Beyond this, in quads, two images of an edge or a translation are not merely imprecise.
 constexpr double kSnapTolerance = 0.1;
 /// So far off, in quads, images and isolines of a good map are by rounding: rotations under which they agree by so much
@@ -44,9 +43,10 @@ void checkSnapArguments(
             "zero, or write them in double precision";
     throw InvalidInput(text.str());
   }
+  const double limit = toDouble(kCoordinateLimit);
   const std::size_t h = firstRefused(uv.size(), kMediumChunk, options.threads,
-    [&uv](std::size_t i)
-    { return std::abs(uv[i].x()) < kLimit && std::abs(uv[i].y()) < kLimit; }); // not for NaN
+    [&uv, limit](std::size_t i)
+    { return std::abs(uv[i].x()) < limit && std::abs(uv[i].y()) < limit; }); // not for NaN
   if (h < uv.size())
   {
     std::ostringstream text;

@@ -31,9 +31,6 @@ namespace
 constexpr double kAreaWeight = 0.15;
 constexpr double kShapeWeight = 0.4;
 constexpr double kValenceWeight = 0.05;
-/// Weight of a change of the logarithm of wanted sizes: in the metric of the sizes a bump of that height on a regular
-/// star has this curvature, 6 cotangents of 60 degrees, so it costs what E_G makes other curvature cost.
-constexpr double kSizeWeight = 3.4641016151377544;
 
 /// Costs in radians up to which the stages of guards are gone through before the next ceiling. The strictest guards
 /// alone would first take what costs most among the vertices that they allow.
@@ -42,10 +39,13 @@ constexpr std::array<double, 5> kCeilings{ 0.25, 0.5, 1, 2, kInfinity };
 constexpr double kVerticesPerQuad = 0.4;
 
 /// Positions in a value of the cache, see BudgetDecimation::writeValue().
-constexpr std::size_t kCurvatureAt = 1;
-constexpr std::size_t kAreaAt = 2;
-constexpr std::size_t kBadAt = 3;
-constexpr std::size_t kPlanAt = 4;
+enum ValuePosition : std::size_t
+{
+  kCurvatureAt = 1,
+  kAreaAt,
+  kBadAt,
+  kPlanAt
+};
 
 std::uint32_t wordOf(double number)
 {
@@ -487,8 +487,12 @@ double BudgetDecimation::shapeCost(const Work& work) const
   }
   const double size = mesh_.sizeOf(removal.vertex());
   const double sizeChange = mesh_.sizing.empty() ? 0 : removal.sizeChange();
+  // In the metric of the sizes a bump of the height of their logarithm on a regular star has this curvature, so it
+  // costs what E_G makes other curvature cost.
+  const double sixCotangentsOf60Degrees = 2 * std::sqrt(3.0);
   return kAreaWeight * numberOf(work.planned[kAreaAt]) / (size * size) / averageStar +
-    kShapeWeight * numberOf(work.planned[kBadAt]) + kValenceWeight * odd + kSizeWeight * sizeChange;
+    kShapeWeight * numberOf(work.planned[kBadAt]) + kValenceWeight * odd +
+    sixCotangentsOf60Degrees * sizeChange;
 }
 
 void BudgetDecimation::remember(const Work& work)

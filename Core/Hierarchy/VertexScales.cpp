@@ -17,14 +17,11 @@ namespace quadrille
 namespace
 {
 
-/// Faces of a chunk of the passes over the mesh.
-constexpr std::size_t kFacesOfLevel = std::size_t{ 1 } << 15;
-
 /// The vertices of each component, joined along edges.
 DisjointSets componentsOf(const Mesh& fine, int threads)
 {
   DisjointSets components(fine.vertexCount(), threads);
-  parallelForEach(fine.faceCount(), kFacesOfLevel, threads,
+  parallelForEach(fine.faceCount(), kLightChunk, threads,
     [&](Index f)
     {
       components.join(fine.origin[3 * f], fine.origin[3 * f + 1]);
@@ -42,7 +39,7 @@ std::vector<double> componentAreas(const Mesh& fine, DisjointSets& components, i
     Index root = kInvalidIndex;
     double doubledArea = 0;
   };
-  const auto sums = parallelParts<std::vector<Sum>>(fine.faceCount(), kFacesOfLevel, threads,
+  const auto sums = parallelParts<std::vector<Sum>>(fine.faceCount(), kLightChunk, threads,
     [&](Index begin, Index end, std::vector<Sum>& sum)
     {
       for (Index f = begin; f < end; ++f)
@@ -75,7 +72,7 @@ bool isSurelyLarge(const Mesh& fine, double edgeLength)
   {
     pollNowAndThen(h);
     doubledArea += fine.edgeVector(h).cross(fine.edgeVector(h + 1)).norm();
-    if (doubledArea > 2 * kSurelyNotSmall * edgeLength * edgeLength)
+    if (doubledArea > 2 * kQuadsOfSmallTriangulation * edgeLength * edgeLength)
     {
       return true;
     }

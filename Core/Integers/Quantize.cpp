@@ -25,11 +25,8 @@ namespace quadrille
 namespace
 {
 
-/// The growth is judged after shrinking, which undoes most of it. Real models became valid at scales up to about 12;
-/// where 12 is not enough the failures seen came back at every scale up to 256, so this leaves some room and ends
-/// there.
-constexpr double kMaximumScale = 32;
-/// By what factor sizes may grow for that the integers become valid.
+/// By what factor sizes may grow for that the integers become valid. It is judged after shrinking, which undoes most of
+/// the growth by a scale.
 constexpr double kMostRefinement = 8;
 
 void checkInput(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv)
@@ -146,7 +143,7 @@ IntegerStart startFrom(const std::vector<FixedVec2>& uv, const Mesh& mesh, const
 {
   UvMesh followed = UvMesh::from(mesh, field, uv);
   UvEditor(followed).repeat(done.records());
-  return integers.adopt(followed.uv) ? repairValidIntegers(integers) : IntegerStart{};
+  return integers.adopt(followed.uv) ? repairIntegers(integers) : IntegerStart{};
 }
 
 /// The mesh with its seams joined, as each one is an edge now: strips that leave by one part come back by its image, so
@@ -292,7 +289,7 @@ struct Quantizer::State
     {
       try
       {
-        start = findValidIntegers(*integers, 1, kMaximumScale, options.progress);
+        start = findValidIntegers(*integers, options.progress);
       }
       catch (const WorkSpent&)
       {

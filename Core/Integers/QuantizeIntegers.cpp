@@ -26,8 +26,6 @@ constexpr double kLeastEnergyGain = 1e-7;
 /// Steps of searches that a repair may take, a face; those of rounded integers that succeeded took up to 4,100, others
 /// more than 11,000.
 constexpr std::size_t kMostIntegerSteps = 5000;
-/// What fails at two scales in full fails at the others, too.
-constexpr std::size_t kMostStepsOfScales = 2 * kMostIntegerSteps;
 /// Rounds of improvement with a new triangulation each.
 constexpr int kMaximumRounds = 6;
 
@@ -120,10 +118,9 @@ void lengthenLoops(IntegerMap& map, StripSearch& search)
 class Repair
 {
 public:
-  /// mostSteps: of searches, a face
-  Repair(IntegerMap& map, std::size_t mostSteps)
-    : map_(map), mostSteps_(mostSteps * map.faces().size()), weight_(map.mesh().alive.size(), 1),
-      search_(map, StripCost::Repair, &weight_), breakouts_(kBreakouts + map.faces().size() / 4)
+  explicit Repair(IntegerMap& map)
+    : map_(map), weight_(map.mesh().alive.size(), 1), search_(map, StripCost::Repair, &weight_),
+      breakouts_(kBreakouts + map.faces().size() / 4)
   {
   }
 
@@ -144,7 +141,7 @@ public:
       {
         continue;
       }
-      if (breakouts_ == 0 || search_.work() > mostSteps_)
+      if (breakouts_ == 0 || search_.work() > kMostIntegerSteps * map_.faces().size())
       {
         return false;
       }
@@ -308,7 +305,6 @@ private:
   static constexpr std::size_t kBreakouts = 40;
 
   IntegerMap& map_;
-  std::size_t mostSteps_;
   std::vector<double> weight_; ///< #F
   StripSearch search_;
   std::size_t breakouts_;
@@ -542,7 +538,9 @@ private:
   std::vector<Refusal> refused_;       ///< 4 #H: by half-edge and direction, for one length of step
 };
 
-IntegerStart repaired(IntegerMap& map, std::size_t mostSteps)
+} // namespace
+
+IntegerStart repairIntegers(IntegerMap& map)
 {
   IntegerStart start;
   StripSearch search(map, StripCost::Repair);
@@ -550,7 +548,7 @@ IntegerStart repaired(IntegerMap& map, std::size_t mostSteps)
   start.steps = search.work();
   if (closed)
   {
-    Repair repair(map, mostSteps);
+    Repair repair(map);
     start.valid = repair.run() && map.isValid();
     if (start.valid && repair.hasBrokenOut())
     {
@@ -566,33 +564,26 @@ IntegerStart repaired(IntegerMap& map, std::size_t mostSteps)
   return start;
 }
 
-} // namespace
-
-IntegerStart repairValidIntegers(IntegerMap& map)
-{
-  return repaired(map, kMostIntegerSteps);
-}
-
-IntegerStart findValidIntegers(
-  IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress)
+IntegerStart findValidIntegers(IntegerMap& map, const ProgressCallback& progress)
 {
   IntegerStart start;
-  for (start.scale = scale; start.scale <= maximumScale; start.scale *= std::sqrt(2.0))
+  for (; start.scale <= kMaximumScale; start.scale *= std::sqrt(2.0))
   {
     report(progress, 0.2, "rounding at scale " + std::to_string(start.scale));
-    if (start.scale > scale)
+    if (start.scale > 1)
     {
       countTry(Try::FinerScale);
     }
     map.round(start.scale);
-    const IntegerStart atScale = repaired(map, kMostIntegerSteps);
+    const IntegerStart atScale = repairIntegers(map);
     start.steps += atScale.steps;
     start.valid = atScale.valid;
-    if (start.valid && start.scale > scale)
+    if (start.valid && start.scale > 1)
     {
       countTryLed(Try::FinerScale);
     }
-    if (start.valid || start.steps > kMostStepsOfScales * map.faces().size())
+    // What fails at two scales in full fails at the others, too.
+    if (start.valid || start.steps > 2 * kMostIntegerSteps * map.faces().size())
     {
       return start;
     }

@@ -15,10 +15,8 @@ namespace quadrille
 namespace
 {
 
-constexpr double kQuadsOfSphere = 6;
-constexpr double kQuadsOfDisc = 4;
-constexpr double kQuadsOfHandle = 16;
-constexpr double kQuadsOfFurtherLoop = 8;
+/// For each loop of the boundary, and twice for each handle.
+constexpr double kQuadsOfCut = 8;
 
 /// Loops of the boundary in each component.
 std::vector<std::size_t> countLoops(const Mesh& mesh, const ComponentSizes& sizes)
@@ -70,13 +68,13 @@ double triangulationScale(double area, double edgeLength)
 
 double quadsOfBlock(long long eulerCharacteristic, std::size_t boundaryLoops)
 {
-  const auto loops = static_cast<double>(boundaryLoops);
-  const double handles = std::max(0.0, (2 - static_cast<double>(eulerCharacteristic) - loops) / 2);
-  if (boundaryLoops == 0)
+  const double cuts =
+    std::max(static_cast<double>(boundaryLoops), 2 - static_cast<double>(eulerCharacteristic));
+  if (cuts <= 0)
   {
-    return handles == 0 ? kQuadsOfSphere : kQuadsOfHandle * handles;
+    return 6; // a box
   }
-  return kQuadsOfDisc + kQuadsOfFurtherLoop * (loops - 1) + kQuadsOfHandle * handles;
+  return boundaryLoops == 0 ? kQuadsOfCut * cuts : kQuadsOfCut * (cuts - 1) + 4;
 }
 
 ComponentSizes measureComponents(const Mesh& mesh, int threads)

@@ -15,8 +15,6 @@ namespace quadrille
 /// A component whose area is below that of so many quads is triangulated as if they were smaller: about 60 vertices on
 /// all levels are what a cross field with eight irregular vertices needs.
 constexpr double kQuadsOfSmallTriangulation = 26;
-/// A connected surface with the area of so many squares of the edge length is not small.
-constexpr double kSurelyNotSmall = 2 * kQuadsOfSmallTriangulation;
 
 /// Factor on the edge length s for the triangles of a component with this area (over its sizes); at most 1.
 double triangulationScale(double area, double edgeLength);

@@ -204,7 +204,7 @@ private:
   void findScales(const PreparedSurface& surface, double maximumLength, int threads)
   {
     if (surface.components == 1 && mesh_.sizing.empty() &&
-      surface.area > kSurelyNotSmall * maximumLength * maximumLength)
+      surface.area > kQuadsOfSmallTriangulation * maximumLength * maximumLength)
     {
       return;
     }

@@ -10,8 +10,6 @@ namespace quadrille
 namespace
 {
 
-constexpr int kMaximumFaces = 2000;
-
 PointLists endsOfLines(const QuadMesh& quads)
 {
   return { quads.points.size(),
@@ -187,7 +185,7 @@ std::optional<SurfacePoint> QuadMoves::target(Index p, const Vector3& displaceme
 {
   if (freedom_[p] != Freedom::Curve)
   {
-    return walkSurface(mesh_, place(p), displacement, kMaximumFaces);
+    return walkSurface(mesh_, place(p), displacement);
   }
   const std::optional<CurvePoint> from = curvePoint(place(p));
   if (!from)
@@ -203,8 +201,7 @@ std::optional<SurfacePoint> QuadMoves::target(Index p, const Vector3& displaceme
 std::optional<SurfacePoint> QuadMoves::slide(Index p, double length) const
 {
   const std::optional<CurvePoint> from = curvePoint(place(p));
-  const std::optional<CurvePoint> to =
-    from ? walkCurve(mesh_, *from, length, kMaximumFaces) : std::nullopt;
+  const std::optional<CurvePoint> to = from ? walkCurve(mesh_, *from, length) : std::nullopt;
   return to ? std::optional<SurfacePoint>(to->onSurface()) : std::nullopt;
 }
 
@@ -231,7 +228,7 @@ std::optional<std::pair<Index, QuadMoves::Span>> QuadMoves::spanFrom(
   const std::array<CurveEnd, 2> ends{ curveEnd(lines_.begin(p)[0]), curveEnd(lines_.begin(p)[1]) };
   const Vector3 start = positionOf(mesh_, from.onSurface());
   std::vector<Vector3> way;
-  for (int i = 0; i < kMaximumFaces; ++i)
+  for (Index i = 0; i < mesh_.faceCount(); ++i)
   {
     const CurvePoint at = lowestOf(mesh_, from);
     const bool rises = (at.h == from.h) == forwards;

@@ -94,11 +94,10 @@ Vector3 positionOf(const Mesh& mesh, const SurfacePoint& point)
   return p[k] + w[i] * (p[i] - p[k]) + w[j] * (p[j] - p[k]);
 }
 
-std::optional<SurfacePoint> walkSurface(
-  const Mesh& mesh, SurfacePoint from, Vector3 displacement, int maximumFaces)
+std::optional<SurfacePoint> walkSurface(const Mesh& mesh, SurfacePoint from, Vector3 displacement)
 {
   Index entryCorner = kInvalidIndex;
-  for (int i = 0; i < maximumFaces; ++i)
+  for (Index i = 0; i < mesh.faceCount(); ++i)
   {
     const auto rates = weightRates(mesh, from.face, displacement);
     if (!rates)
@@ -180,12 +179,11 @@ std::optional<Index> continueCurve(const Mesh& mesh, Index edge, bool atTarget)
   return edges[0] == lowest ? edges[1] : edges[0];
 }
 
-std::optional<CurvePoint> walkCurve(
-  const Mesh& mesh, CurvePoint from, double length, int maximumEdges)
+std::optional<CurvePoint> walkCurve(const Mesh& mesh, CurvePoint from, double length)
 {
   bool forwards = length >= 0;
   double rest = std::abs(length);
-  for (int i = 0; i < maximumEdges; ++i)
+  for (Index i = 0; i < mesh.faceCount(); ++i)
   {
     const double whole = mesh.edgeVector(from.h).norm();
     const double ahead = whole * (forwards ? 1 - from.t : from.t);

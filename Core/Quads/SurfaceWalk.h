@@ -26,9 +26,8 @@ Vector3 positionOf(const Mesh& mesh, const SurfacePoint& point);
 
 /// Walks straight from the point by the part of `displacement` that is tangential there, unfolding
 /// over edges. None when it would meet a constrained edge or a degenerate triangle, or cross more
-/// than maximumFaces faces.
-std::optional<SurfacePoint> walkSurface(
-  const Mesh& mesh, SurfacePoint from, Vector3 displacement, int maximumFaces);
+/// faces than there are.
+std::optional<SurfacePoint> walkSurface(const Mesh& mesh, SurfacePoint from, Vector3 displacement);
 
 /// The constrained edges at the vertex of corner h, each by the lower of its two half-edges.
 std::vector<Index> constrainedEdgesAt(const Mesh& mesh, Index h);
@@ -49,8 +48,7 @@ std::optional<CurvePoint> locateOnCurve(const Mesh& mesh, const SurfacePoint& po
 std::optional<Index> continueCurve(const Mesh& mesh, Index edge, bool atTarget);
 
 /// Walks along the curve of constrained edges by `length` (backwards when negative; forwards is the
-/// direction of h). None where the curve ends, forks, or has more than maximumEdges edges.
-std::optional<CurvePoint> walkCurve(
-  const Mesh& mesh, CurvePoint from, double length, int maximumEdges);
+/// direction of h). None where the curve ends or forks, or more edges are passed than there are faces.
+std::optional<CurvePoint> walkCurve(const Mesh& mesh, CurvePoint from, double length);
 
 } // namespace quadrille

@@ -26,7 +26,6 @@ namespace
 /// Rings of faces round the inverted ones, in the order of the attempts. Of 116 tries with sixteen none led to fewer
 /// defects, and these took more than half of all work.
 constexpr std::array<int, 3> kGrowth{ 2, 4, 8 };
-constexpr std::size_t kMaximumPatchFaces = 10000;
 /// Faces times steps of the untangler: of one try, and of all tries besides half the faces of the mesh.
 constexpr std::size_t kWorkPerTry = 200000;
 constexpr std::size_t kMaximumWork = 5000000;
@@ -123,10 +122,10 @@ std::vector<Index> PatchMender::seedsLeft(std::vector<Index> seeds)
 
 bool PatchMender::mendAround(Index seed, int rings)
 {
-  patch_.beginAt(seed, kMaximumPatchFaces);
+  patch_.beginAt(seed, kWorkPerTry);
   for (int i = 0; i < rings; ++i)
   {
-    patch_.grow(kMaximumPatchFaces);
+    patch_.grow(kWorkPerTry);
     if (i == 0)
     {
       // What touches the cluster need not be tried again; a wrong winding has no inverted face to begin with.
@@ -136,8 +135,7 @@ bool PatchMender::mendAround(Index seed, int rings)
       }
     }
   }
-  const bool improved =
-    patch_.faces().size() <= kMaximumPatchFaces && embedPatch(rings > kGrowth.front());
+  const bool improved = patch_.faces().size() <= kWorkPerTry && embedPatch(rings > kGrowth.front());
   if (improved)
   {
     changed_.insert(changed_.end(), patch_.faces().begin(), patch_.faces().end());

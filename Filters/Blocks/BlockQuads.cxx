@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Blocks/BlockQuads.h"
 
+#include "Base/Lists.h"
 #include "Base/Refuse.h"
 
 #include <vtkDataArray.h>
@@ -19,8 +20,6 @@ namespace
 
 /// Above it a double does not hold every whole number.
 constexpr double kMostQuadsOfBlock = 1e15;
-/// Names in a message.
-constexpr std::size_t kNamesTold = 12;
 
 std::string trimmed(const std::string& text)
 {
@@ -94,13 +93,8 @@ void checkBlockQuads(const std::vector<BlockQuads>& pairs, const std::vector<std
     {
       continue;
     }
-    std::string names;
-    for (std::size_t i = 0; i < std::min(blocks.size(), kNamesTold); ++i)
-    {
-      names += (i == 0 ? "'" : ", '") + blocks[i] + "'";
-    }
     refuse("the quads of blocks name '", pair.block, "', but there is no such block; there are ",
-      names, blocks.size() > kNamesTold ? ", ..." : "");
+      joined(blocks, kMostTold, [](const std::string& block) { return "'" + block + "'"; }));
   }
 }
 

@@ -29,10 +29,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kAttributeChunk = 1 << 13;
-/// Parts of a cell that differ by less than this are equal.
-constexpr double kSamePart = 1e-9;
-
 /// Arrays that describe the source itself and would be wrong on anything made from it.
 bool isOwn(const std::string& name)
 {
@@ -163,7 +159,7 @@ void mixPoints(vtkAbstractArray* from, vtkAbstractArray* to,
   withValues(from, to,
     [&](auto* source, auto* target)
     {
-      parallelForEach(origins.size(), kAttributeChunk, threads,
+      parallelForEach(origins.size(), kMediumChunk, threads,
         [&](std::size_t i)
         {
           const PointOrigin& o = origins[i];
@@ -188,7 +184,7 @@ void mixCells(vtkAbstractArray* from, vtkAbstractArray* to, const CellOrigins& o
     [&](auto* source, auto* target)
     {
       using Real = std::remove_pointer_t<decltype(target)>;
-      parallelForEach(origins.first.size() - 1, kAttributeChunk, threads,
+      parallelForEach(origins.first.size() - 1, kMediumChunk, threads,
         [&](std::size_t q)
         {
           const auto* base =
@@ -325,7 +321,7 @@ vtkIdType majority(
   vtkIdType best = -1;
   for (const Part& part : parts)
   {
-    if (part.weight < most - kSamePart)
+    if (part.weight < most - kRounding)
     {
       continue;
     }
@@ -342,7 +338,7 @@ std::vector<vtkIdType> majorities(vtkAbstractArray* from, const CellOrigins& ori
 {
   const TupleKeys keys(from);
   std::vector<vtkIdType> result(origins.first.size() - 1);
-  parallelFor(result.size(), kAttributeChunk, threads,
+  parallelFor(result.size(), kMediumChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<Part> parts;
@@ -374,7 +370,7 @@ void copyTuples(vtkAbstractArray* from, vtkAbstractArray* to, const Ids& ids, in
     static_cast<std::size_t>(from->GetNumberOfComponents() * from->GetDataTypeSize());
   const char* source = static_cast<const char*>(from->GetVoidPointer(0));
   char* target = static_cast<char*>(to->GetVoidPointer(0));
-  parallelForEach(count, kAttributeChunk, threads,
+  parallelForEach(count, kMediumChunk, threads,
     [&](std::size_t i)
     { std::memcpy(target + bytes * i, source + bytes * static_cast<std::size_t>(ids(i)), bytes); });
 }

@@ -46,7 +46,7 @@ template <class Id>
 std::size_t copyPolygonPoints(const Id* ids, vtkIdType points, int threads, SurfaceInput& input)
 {
   Index* const own = input.polygonPoints.edit();
-  return firstRefused(input.polygonPoints.size(), kTupleChunk, threads,
+  return firstRefused(input.polygonPoints.size(), kLightChunk, threads,
     [&](std::size_t i)
     {
       own[i] = static_cast<Index>(ids[i]);
@@ -184,7 +184,7 @@ void readFeatureEdges(vtkPolyData* data, ConvertedSurface& surface, int threads)
   std::vector<std::uint8_t>& bits = surface.input.featureEdges;
   bits.resize(polygonCount(surface.input));
   const vtkIdType firstStrip = surface.firstCell + data->GetNumberOfPolys();
-  const std::size_t refused = firstRefused(bits.size(), kTupleChunk, threads,
+  const std::size_t refused = firstRefused(bits.size(), kLightChunk, threads,
     [&](std::size_t i)
     {
       const double value = valueOf(i);

@@ -214,7 +214,7 @@ void addMap(vtkPolyData* data, const std::vector<FixedVec2>& uv, int threads)
   auto igm = newArray<vtkDoubleArray>(arrays::kIgm, 6, faces);
   auto determinants = newArray<vtkDoubleArray>(arrays::kDeterminant, 1, faces);
   double* value = igm->GetPointer(0);
-  const std::size_t refused = firstRefused(uv.size(), kTupleChunk, threads,
+  const std::size_t refused = firstRefused(uv.size(), kLightChunk, threads,
     [&](std::size_t h)
     {
       value[2 * h] = toDouble(uv[h].u);
@@ -254,7 +254,7 @@ std::vector<FixedVec2> readMap(vtkPolyData* data, int threads)
                   : Vector2(array->GetComponent(f, first), array->GetComponent(f, first + 1));
   };
   std::vector<FixedVec2> uv(3 * static_cast<std::size_t>(array->GetNumberOfTuples()));
-  const std::size_t refused = firstRefused(uv.size(), kTupleChunk, threads,
+  const std::size_t refused = firstRefused(uv.size(), kLightChunk, threads,
     [&](std::size_t h)
     {
       const Vector2 p = corner(h);

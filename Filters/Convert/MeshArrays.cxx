@@ -84,7 +84,7 @@ std::vector<Index> readIds(vtkDataArray* array, std::size_t limit, int threads)
     return values ? static_cast<double>(values[i])
                   : array->GetComponent(static_cast<vtkIdType>(i), 0);
   };
-  const std::size_t refused = firstRefused(ids.size(), kTupleChunk, threads,
+  const std::size_t refused = firstRefused(ids.size(), kLightChunk, threads,
     [&](std::size_t i)
     {
       const double id = value(i);

@@ -38,7 +38,6 @@ namespace
 
 /// Sine of the angle to the normal below which a direction says nothing about a face.
 constexpr double kLeastTangent = 0.01;
-constexpr double kTangentRounding = 1e-9;
 
 template <class Real>
 void copyPoints(const Real* from, int threads, std::vector<Vector3>& to)
@@ -52,7 +51,7 @@ template <class Offset, class Id>
 std::size_t copyTriangles(
   const Offset* offsets, const Id* ids, vtkIdType points, int threads, std::vector<Index>& corners)
 {
-  return firstRefused(corners.size() / 3, kTupleChunk, threads,
+  return firstRefused(corners.size() / 3, kLightChunk, threads,
     [=, &corners](std::size_t f)
     {
       if (offsets[f + 1] - offsets[f] != 3)
@@ -188,7 +187,7 @@ void readFeatureFlags(vtkPolyData* data, Mesh& mesh, int threads)
     return ((bits >> (h % 3)) & 1) != 0;
   };
   std::uint8_t* const flags = mesh.flags.edit();
-  parallelForEach(mesh.halfEdgeCount(), kTupleChunk, threads,
+  parallelForEach(mesh.halfEdgeCount(), kLightChunk, threads,
     [&](Index h)
     {
       if (isMarked(h) || (!mesh.isBoundary(h) && isMarked(mesh.twin[h])))
@@ -270,7 +269,7 @@ std::vector<Guide> readGuides(vtkPolyData* data, const Mesh& mesh)
     const Vector3 direction = given.direction(f);
     const Vector3 tangent = direction.stableNormalized() - n * n.dot(direction.stableNormalized());
     // What writeLevel wrote comes back with every bit.
-    const bool exact = (tangent - direction).norm() < kTangentRounding;
+    const bool exact = (tangent - direction).norm() < kRounding;
     if (exact || tangent.norm() > kLeastTangent)
     {
       guides.back() = { exact ? direction : Vector3(tangent.normalized()),

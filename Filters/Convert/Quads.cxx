@@ -33,8 +33,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kQuadChunk = 1 << 13;
-
 vtkSmartPointer<vtkPoints> newPoints(std::size_t count)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
@@ -116,7 +114,7 @@ std::vector<PointOrigin> originsOf(const QuadMesh& mesh, const PointFunction& or
     return known;
   }
   std::vector<PointOrigin> origins(mesh.points.size());
-  parallelForEach(origins.size(), kQuadChunk, threads,
+  parallelForEach(origins.size(), kMediumChunk, threads,
     [&](std::size_t i) { origins[i] = origin(mesh.sourceFace[i], mesh.sourceWeights[i]); });
   return origins;
 }

@@ -24,8 +24,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kSoupQuestions = 512; ///< of the tree, in a chunk
-
 NearestTriangle::Place nearestTo(const NearestTriangle& tree, const Vector3& p)
 {
   return *tree.at(p); // there is a triangle, and no bound
@@ -35,7 +33,7 @@ std::vector<PointOrigin> pointOrigins(
   const NearestTriangle& tree, const TriangleList& target, int threads)
 {
   std::vector<PointOrigin> origins(target.points.size());
-  parallelForEach(origins.size(), kSoupQuestions, threads,
+  parallelForEach(origins.size(), kHeavyChunk, threads,
     [&](std::size_t i)
     {
       const NearestTriangle::Place place = nearestTo(tree, target.points[i]);
@@ -49,7 +47,7 @@ std::vector<vtkIdType> cellOrigins(
   const NearestTriangle& tree, const ConvertedSoup& from, const TriangleList& target, int threads)
 {
   std::vector<vtkIdType> origins(target.corners.size());
-  parallelForEach(origins.size(), kSoupQuestions, threads,
+  parallelForEach(origins.size(), kHeavyChunk, threads,
     [&](std::size_t i)
     {
       const std::array<Index, 3>& c = target.corners[i];

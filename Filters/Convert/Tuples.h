@@ -10,14 +10,11 @@
 namespace quadrille
 {
 
-/// Tuples of an array that a thread works on at a time.
-constexpr std::size_t kTupleChunk = std::size_t{ 1 } << 16;
-
 /// body(i) for all i below count, by all threads.
 template <class Body>
 void forEachIndex(std::size_t count, int threads, const Body& body)
 {
-  parallelFor(count, kTupleChunk, threads,
+  parallelFor(count, kLightChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

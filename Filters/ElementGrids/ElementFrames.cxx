@@ -29,15 +29,13 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kElementFrameChunk = 4096;
-
 using ElementCorners = std::array<vtkIdType, 4>;
 
 /// Calls visit(element, its corners) for all, on several threads.
 template <class Visitor>
 void forEachElement(vtkUnstructuredGrid* grid, int threads, const Visitor& visit)
 {
-  parallelFor(static_cast<std::size_t>(grid->GetNumberOfCells()), kElementFrameChunk, threads,
+  parallelFor(static_cast<std::size_t>(grid->GetNumberOfCells()), kMediumChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       vtkNew<vtkIdList> ids;
@@ -169,11 +167,10 @@ Vector3 directionOf(const ElementSource& source, std::size_t element, const Elem
 /// Turns the frame about its normal; false where the direction is zero or along the normal.
 bool turnTo(ElementFrame& frame, const Vector3& direction)
 {
-  constexpr double kAlongNormal = 1e-6;
   const Vector3 d = direction.stableNormalized();
   const Vector3 normal = frame.row(2).transpose();
   const Vector3 inPlane = d - d.dot(normal) * normal;
-  if (!(inPlane.norm() > kAlongNormal))
+  if (!(inPlane.norm() > kRoundingOfSingle))
   {
     return false;
   }
@@ -254,7 +251,12 @@ ElementNotice addElementAxis(vtkUnstructuredGrid* grid, const std::string& name,
 {
   const ElementSource source = sourceArray(grid, name, 3, "direction of the elements");
   std::vector<std::uint8_t> marks(frames.size(), 0);
-  constexpr std::uint8_t kFallback = 1, kNothing = 2, kNotFinite = 3;
+  enum Mark : std::uint8_t
+  {
+    kFallback = 1,
+    kNothing,
+    kNotFinite
+  };
   forEachElement(grid, threads,
     [&](std::size_t i, const ElementCorners& corners)
     {

@@ -34,9 +34,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kElementChunk = 512;
-constexpr double kOnSurface = 1e-9; ///< of the diagonal
-
 //------------------------------------------------------------------------------
 /// Where SourceCellId and its companions say that points of the quads lie.
 class NamedPlaces
@@ -266,7 +263,7 @@ FoundPlaces findPlaces(vtkPolyData* quads, const std::vector<std::array<Index, 4
 {
   const std::vector<Vector3> points = readPointPositions(quads, threads);
   const Mesh& mesh = surface.prepared.mesh;
-  const double near = kOnSurface * surface.prepared.boundingBoxDiagonal;
+  const double near = kRounding * surface.prepared.boundingBoxDiagonal;
   const NamedPlaces named(quads, surface);
   FoundPlaces found;
   found.places.resize(points.size());
@@ -285,7 +282,7 @@ FoundPlaces findPlaces(vtkPolyData* quads, const std::vector<std::array<Index, 4
   {
     const std::unique_ptr<NearestTriangle> tree = treeOf(mesh);
     const std::vector<Vector3> normals = normalsAtPoints(points, corners);
-    parallelForEach(lost.size(), kElementChunk, threads,
+    parallelForEach(lost.size(), kHeavyChunk, threads,
       [&](std::size_t k)
       {
         SurfacePoint& place = found.places[lost[k]];

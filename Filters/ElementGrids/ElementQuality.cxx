@@ -32,7 +32,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kMeasureChunk = 4096;
 constexpr double kUnbounded = 1e30; ///< what Verdict says of a measure that is infinite
 
 using MeasureFunction = double (*)(vtkCell*);
@@ -154,7 +153,7 @@ std::vector<double> measureElements(vtkUnstructuredGrid* grid, std::size_t measu
   const MeasureFunction function = kFunctions[measure];
   std::vector<double> values(static_cast<std::size_t>(grid->GetNumberOfCells()));
   vtkCellArray* cells = grid->GetCells();
-  parallelFor(values.size(), kMeasureChunk, threads,
+  parallelFor(values.size(), kMediumChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       vtkNew<vtkQuad> quad;

@@ -33,10 +33,14 @@ namespace quadrille
 namespace
 {
 
-constexpr int kTag = 46120;     // of our messages
-constexpr int kStopTag = 46121; // asks the others to stop
-constexpr int kDoneTag = 46122; // says that a rank has come to the end of its own work
-constexpr int kGoTag = 46123;   // says that all have
+/// Of our messages.
+enum MessageTag : int
+{
+  kTag = 46120,
+  kStopTag, ///< asks the others to stop
+  kDoneTag, ///< says that a rank has come to the end of its own work
+  kGoTag    ///< says that all have
+};
 
 /// Between two looks for messages: far below what a user notices, far above what a look costs.
 constexpr std::chrono::milliseconds kLook{ 2 };

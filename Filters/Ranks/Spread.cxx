@@ -40,8 +40,6 @@ namespace
 
 /// Points with a valence or a connection of their own that a rank may have: each stays when its piece is thinned out.
 constexpr std::size_t kMostKept = 20000;
-/// Notices of ranks that are told one by one.
-constexpr std::size_t kMostRankNotices = 8;
 
 /// Of the joined surface, about: triangles with edges of this length and more.
 double expectedVertices(double area, double edgeLength)
@@ -519,7 +517,7 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::joinLevels(
       rankOf_.push_back({ static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(p) });
     }
     const std::string repaired = unpacker.text();
-    if (!repaired.empty() && ++repairedRanks <= kMostRankNotices)
+    if (!repaired.empty() && ++repairedRanks <= kMostTold)
     {
       notices.push_back(
         (all.size() > 1 ? "piece of rank " + std::to_string(r) + ": " : "") + repaired);
@@ -531,10 +529,10 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::joinLevels(
       field->PassData(more);
     }
   }
-  if (repairedRanks > kMostRankNotices)
+  if (repairedRanks > kMostTold)
   {
     notices.push_back(std::to_string(repairedRanks) + " ranks repaired their pieces, of which " +
-      std::to_string(kMostRankNotices) + " are told here");
+      std::to_string(kMostTold) + " are told here");
   }
   JoinedPieces joined = quadrille::joinPieces(levels, ids, plan_.piece.featureAngle);
   markPatchBorders(patches, joined);

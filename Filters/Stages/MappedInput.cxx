@@ -33,8 +33,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kMappedChunk = std::size_t{ 1 } << 16;
-
 bool isReal(vtkDataArray* array)
 {
   return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
@@ -68,7 +66,7 @@ bool copyCellMap(vtkDataArray* array, int threads, std::vector<Vector2>& uv)
     return false;
   }
   const auto* values = typed->GetPointer(0);
-  parallelFor(uv.size(), kMappedChunk, threads,
+  parallelFor(uv.size(), kLightChunk, threads,
     [values, &uv](std::size_t begin, std::size_t end)
     {
       for (std::size_t h = begin; h < end; ++h)
@@ -204,7 +202,7 @@ std::vector<std::int8_t> readMatching(vtkPolyData* data, int threads)
   matching.resize(3 * static_cast<std::size_t>(array->GetNumberOfTuples()));
   const auto turnsAt = [array](std::size_t h)
   { return array->GetComponent(static_cast<vtkIdType>(h / 3), static_cast<int>(h % 3)); };
-  const std::size_t refused = firstRefused(matching.size(), kMappedChunk, threads,
+  const std::size_t refused = firstRefused(matching.size(), kLightChunk, threads,
     [&](std::size_t h)
     {
       const double turns = turnsAt(h);

@@ -329,7 +329,7 @@ TEST(SurfaceWalk, StraightOverAPlane)
     const Vector3 d(pick(random, 100) * 0.05 - 2.5, pick(random, 100) * 0.05 - 2.5, 0);
     const Vector3 end = start + d;
     const bool inside = end.x() > 0 && end.y() > 0 && end.x() < 10 && end.y() < 10;
-    const auto to = walkSurface(mesh, from, d, 100);
+    const auto to = walkSurface(mesh, from, d);
     ASSERT_EQ(to.has_value(), inside);
     if (to)
     {
@@ -345,7 +345,7 @@ TEST(SurfaceWalk, RoundACylinder)
   const double side = 2 * std::sin(kPi / 12);
   const SurfacePoint from{ 2 * 12, { 0.5, 0.25, 0.25 } };
   const Vector3 along = mesh.edgeVector(3 * from.face).normalized();
-  const auto to = walkSurface(mesh, from, 12 * side * along, 1000);
+  const auto to = walkSurface(mesh, from, 12 * side * along);
   ASSERT_TRUE(to);
   EXPECT_NEAR((positionOf(mesh, *to) - positionOf(mesh, from)).norm(), 0, 1e-12);
 }
@@ -361,11 +361,11 @@ TEST(SurfaceWalk, CurvesStopAtForksAndEnds)
   const double side = cylinder.edgeVector(h).norm();
   for (const double sign : { 1.0, -1.0 })
   {
-    const auto round = walkCurve(cylinder, { h, 0.25 }, sign * 12 * side, 100);
+    const auto round = walkCurve(cylinder, { h, 0.25 }, sign * 12 * side);
     ASSERT_TRUE(round);
     const Vector3 start = positionOf(cylinder, CurvePoint{ h, 0.25 }.onSurface());
     EXPECT_NEAR((positionOf(cylinder, round->onSurface()) - start).norm(), 0, 1e-12);
-    EXPECT_FALSE(walkCurve(cylinder, { h, 0.25 }, sign * 12 * side, 5));
+    EXPECT_FALSE(walkCurve(cylinder, { h, 0.25 }, sign * kInfinity));
   }
   // Three features meet in the corner of a cube.
   const Mesh cube = markFeatures(unitCube(2), 0.7);
@@ -373,8 +373,8 @@ TEST(SurfaceWalk, CurvesStopAtForksAndEnds)
   {
     if (cube.isFeature(g))
     {
-      EXPECT_FALSE(walkCurve(cube, { g, 0.5 }, 1.1, 100));
-      EXPECT_FALSE(walkCurve(cube, { g, 0.5 }, -1.1, 100));
+      EXPECT_FALSE(walkCurve(cube, { g, 0.5 }, 1.1));
+      EXPECT_FALSE(walkCurve(cube, { g, 0.5 }, -1.1));
     }
   }
 }
