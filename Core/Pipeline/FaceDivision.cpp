@@ -604,12 +604,16 @@ std::string filledText(const CutFaces& cut, std::size_t quads, std::size_t all)
 {
   const double share = cut.share * static_cast<double>(quads) / static_cast<double>(all);
   std::ostringstream text;
-  text << "ask for more than " << all << " quads: " << cut.count
-       << (cut.count == 1 ? " face" : " faces") << " between sharp edges, with "
-       << std::setprecision(3) << 100 * share << " % of the area, near "
+  const bool isAll = cut.count == 1 && !cut.rest;
+  text << "ask for more than " << all << " quads: "
+       << (isAll               ? "the connected component"
+              : cut.count == 1 ? "1 face between sharp edges"
+                               : std::to_string(cut.count) + " faces between sharp edges")
+       << ", with " << std::setprecision(3) << 100 * share << " % of the area, near "
        << placeText(cut.faces.mesh.middleOfFace(0)) << (cut.count == 1 ? ", has" : ", have")
-       << " no map beside the others with quads of this size; the edges are kept, and the quads "
-          "inside have more irregular points";
+       << " no map" << (isAll ? "" : " beside the others")
+       << " with quads of this size; the edges are kept, and the quads inside have more irregular "
+          "points";
   // Lines are edges of what fills the faces.
   const std::vector<ValenceRequest> unmet = elementsWhere(cut.faces.valenceRequests,
     [](const ValenceRequest& request)
