@@ -521,7 +521,7 @@ bool isCutAtFaces(
 bool isFilled(const PreparedSurface& surface, const RemeshOptions& options, const History& history)
 {
   return isCutAtFaces(surface, options, history) ||
-    (hasFailedForMap(history) && keepsFeatures(surface) && mayBeFilled(surface, options));
+    (hasFailedForMap(history) && surface.facets.isDesigned && mayBeFilled(surface, options));
 }
 
 FailedFaces facesAt(const std::vector<Vector3>& places, const Mesh& mesh)
