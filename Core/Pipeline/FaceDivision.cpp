@@ -48,6 +48,7 @@ bool contradictsItself(const MapAttempt& map)
     map.failedFaces.empty();
 }
 
+/// No attempt has quads, and neither their number nor what was asked for is at fault.
 bool hasFailedForMap(const History& history)
 {
   return !history.hasResult() && !isTooLarge(history.last()) &&
