@@ -111,20 +111,25 @@ TEST_F(PlacementOnACube, ACycleIsClosedOverAllSides)
   }
 }
 
-/// As over two bodies that touch.
-TEST(ConstraintPlacement, ALineOverTwoPartsIsFollowedOnBoth)
+/// As two bodies that touch.
+class PlacementOnTwoPlates : public ::testing::Test
 {
-  const SurfaceInput input =
+protected:
+  const SurfaceInput input_ =
     toInput(disjointUnion(gridPlane(2, 2), gridPlane(2, 2), Vector3(0, 0, 5)));
-  const SurfacePlaces places(input);
-  const SurfacePaths paths(input);
-  ConstraintPlacement placement(input, places, paths);
+  const SurfacePlaces places_{ input_ };
+  const SurfacePaths paths_{ input_ };
+  ConstraintPlacement placement_{ input_, places_, paths_ };
+};
+
+TEST_F(PlacementOnTwoPlates, ALineOverTwoPartsIsFollowedOnBoth)
+{
   const DrawnLine line{ 3, { { 0.5, 0, 0 }, { 0.5, 1, 0 }, { 0.5, 1, 5 }, { 0.5, 2, 5 } } };
-  placement.addFeature(line);
-  placement.addStroke(line, 1, 0.1);
-  ASSERT_EQ(placement.requests().features.size(), 1U);
-  EXPECT_EQ(placement.requests().features[0].points, line.points);
-  const std::vector<PlacedConstraint>& placed = placement.result().placed;
+  placement_.addFeature(line);
+  placement_.addStroke(line, 1, 0.1);
+  ASSERT_EQ(placement_.requests().features.size(), 1U);
+  EXPECT_EQ(placement_.requests().features[0].points, line.points);
+  const std::vector<PlacedConstraint>& placed = placement_.result().placed;
   ASSERT_EQ(placed.size(), 2U);
   for (const PlacedConstraint& constraint : placed)
   {
@@ -140,15 +145,10 @@ TEST(ConstraintPlacement, ALineOverTwoPartsIsFollowedOnBoth)
 }
 
 /// Of a line with a point on each there is none on any.
-TEST(ConstraintPlacement, ALineFromOnePartToAnotherRunsOverNone)
+TEST_F(PlacementOnTwoPlates, ALineFromOnePartToAnotherRunsOverNone)
 {
-  const SurfaceInput input =
-    toInput(disjointUnion(gridPlane(2, 2), gridPlane(2, 2), Vector3(0, 0, 5)));
-  const SurfacePlaces places(input);
-  const SurfacePaths paths(input);
-  ConstraintPlacement placement(input, places, paths);
-  placement.addStroke({ 3, { { 0.5, 0, 0 }, { 0.5, 0, 5 } } }, 1, 0.1);
-  EXPECT_TRUE(placement.result().placed[0].guided.empty());
+  placement_.addStroke({ 3, { { 0.5, 0, 0 }, { 0.5, 0, 5 } } }, 1, 0.1);
+  EXPECT_TRUE(placement_.result().placed[0].guided.empty());
 }
 
 TEST(ConstraintPlacement, ValenceTwoIsRefusedOnTheBoundaryOnly)
